@@ -1,0 +1,52 @@
+#pragma once
+
+#include "rigid_body_sim/body_state.hpp"
+
+namespace rigid_body_sim {
+
+/// One 3-vector a body. Stored column by column (Eigen's default), that is as a structure of
+/// arrays: the x of all bodies, then the y, then the z.
+using Column3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// One quaternion a body, columns in the order of Eigen's coeffs(): x, y, z, w.
+using ColumnQ = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
+/// All bodies of a simulation; row i of every member belongs to body i. B is the frame of principal
+/// axes at the centre of mass.
+struct Bodies {
+  // Constants.
+  Eigen::VectorXd mass;  ///< [kg]
+  Column3 I_BBcm_B;      ///< principal moments I1 <= I2 <= I3 [kg m^2]
+
+  // State, see BodyState.
+  Column3 p_WBcm;    ///< [m]
+  ColumnQ q_WB;      ///< unit
+  Column3 P_WB;      ///< [kg m/s]
+  Column3 L_WBcm_W;  ///< [kg m^2/s]
+
+  Bodies() = default;
+  explicit Bodies(Eigen::Index count)
+      : mass(count),
+        I_BBcm_B(count, 3),
+        p_WBcm(count, 3),
+        q_WB(count, 4),
+        P_WB(count, 3),
+        L_WBcm_W(count, 3) {}
+
+  Eigen::Index count() const { return mass.size(); }
+
+  BodyState state(Eigen::Index i) const {
+    return {p_WBcm.row(i), Quaterniond(Eigen::Vector4d(q_WB.row(i))), P_WB.row(i), L_WBcm_W.row(i)};
+  }
+
+  void setState(Eigen::Index i, const BodyState& state) {
+    p_WBcm.row(i) = state.p_WBcm;
+    q_WB.row(i) = state.q_WB.coeffs();
+    P_WB.row(i) = state.P_WB;
+    L_WBcm_W.row(i) = state.L_WBcm_W;
+  }
+
+  Vector3d moments(Eigen::Index i) const { return I_BBcm_B.row(i); }
+};
+
+}  // namespace rigid_body_sim

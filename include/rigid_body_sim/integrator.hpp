@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rigid_body_sim/effect.hpp"
+
+namespace rigid_body_sim {
+
+/// Advances the bodies by one step.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// From `time_s` to `time_s + step_s` [s] under the active effects.
+  virtual void step(Bodies& bodies, ActiveEffects& effects, double time_s, double step_s) = 0;
+};
+
+/// Whether w x I w is part of the equations of motion. Without it the angular velocity of a
+/// torque-free body is constant in the world, which is right for spherical bodies only.
+enum class Gyroscopic { kOn, kOff };
+
+/// A method one can choose, and what it promises; test/integrator_laws_test.cpp measures each
+/// promise.
+struct IntegratorRow {
+  std::string name;
+  int order;                    ///< of the global error, torque-free and forced
+  bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
+  bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
+  int evaluations;              ///< of the effects, a step
+  std::string summary;
+  std::unique_ptr<Integrator> (*make)(Gyroscopic);
+};
+
+/// All methods, from the crudest to the most accurate.
+const std::vector<IntegratorRow>& integrators();
+
+/// The row with this name. @throws std::invalid_argument naming all that there are.
+const IntegratorRow& integratorNamed(const std::string& name);
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rigid_body_sim/body_frame.hpp"
+#include "rigid_body_sim/effect.hpp"
+#include "rigid_body_sim/integrator.hpp"
+#include "rigid_body_sim/mass_properties.hpp"
+#include "rigid_body_sim/parameters.hpp"
+#include "rigid_body_sim/urdf.hpp"
+
+namespace rigid_body_sim {
+
+/// A body of a scene and how it starts.
+struct SceneBody {
+  std::string name;                ///< of its root link; also its frame and topic name
+  MassProperties mass_properties;  ///< in the root link frame L
+  std::vector<FixedFrame> frames;  ///< further frames fixed to it (lumped links)
+  Isometry3d X_WL = Isometry3d::Identity();
+  Vector3d v_WBcm = Vector3d::Zero();  ///< velocity of the centre of mass [m/s], world axes
+  Vector3d w_WB_L = Vector3d::Zero();  ///< angular velocity [rad/s], root link axes
+  bool is_point_mass = false;          ///< has no rotation; takes no torque
+};
+
+/// All that a simulation starts from.
+struct Scene {
+  std::int64_t step_ns = 20'000'000;
+  std::string integrator = "split2";
+  Gyroscopic gyroscopic = Gyroscopic::kOn;
+  std::vector<SceneBody> bodies;
+  std::vector<std::shared_ptr<const Effect>> effects;
+  std::string import_report;  ///< what the URDF files held; empty without any
+
+  double step_s() const { return static_cast<double>(step_ns) * 1e-9; }
+};
+
+/// Where a scene finds what it refers to.
+struct SceneSources {
+  std::string folder;  ///< relative `urdf` paths start here
+  /// Text of the URDF in the parameter of this name; unset where there are no parameters (offline).
+  std::function<std::string(const std::string& parameter)> urdf_parameter;
+};
+
+/// Reads a scene from parameters (config/default.yaml documents every key). Leaves keys that are
+/// not a scene's unread: call refuseUnknown() on `parameters` after everything that reads from
+/// them.
+/// @throws std::invalid_argument with the path of the key, its value, and what is allowed.
+Scene readScene(const Parameters& parameters, const SceneSources& sources);
+
+/// Reads a scene file (YAML). @throws std::invalid_argument as readScene, also for unknown keys.
+Scene readSceneFile(const std::string& path);
+
+/// One line that says what is simulated: `effects: gravity (2 bodies); gyroscopic on; split2, 0.02
+/// s`.
+std::string summary(const Scene& scene);
+
+}  // namespace rigid_body_sim

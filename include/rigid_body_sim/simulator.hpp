@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rigid_body_sim/integrator.hpp"
+#include "rigid_body_sim/scene.hpp"
+#include "rigid_body_sim/wrench.hpp"
+
+namespace rigid_body_sim {
+
+/// Who gave an input, and which of his it is: the order in which inputs of one tick are summed, so
+/// that the timing of threads cannot change a result.
+struct Origin {
+  std::string source;          ///< topic and publisher
+  std::uint64_t sequence = 0;  ///< of the message, among those of this source
+  std::uint64_t entry = 0;     ///< within the message
+};
+
+/// A wrench that acts over whole ticks.
+struct WrenchInput {
+  Eigen::Index body = 0;
+  AppliedWrench applied;
+  Tick start = 0;         ///< first tick it acts in; a past one means the next tick
+  Tick ticks = 0;         ///< how many; 0: until it is replaced
+  bool replaces = false;  ///< ends the wrenches that earlier messages of the same source gave to
+                          ///< the body with `replaces` set
+  Origin origin;
+};
+
+/// Momentum given at once, at the beginning of a tick.
+struct ImpulseInput {
+  Eigen::Index body = 0;
+  AppliedWrench applied;  ///< in [N s] and [N m s]
+  Tick start = 0;         ///< the tick; a past one means the next tick
+  Origin origin;
+};
+
+/// A body that was stopped because its state would have become infinite or not a number.
+struct FrozenBody {
+  Eigen::Index body;
+  Tick tick;  ///< the tick that failed; the state is the one at its beginning
+};
+
+/// The effect of the inputs: the wrenches held at the moment.
+class AppliedWrenches : public Effect {
+ public:
+  std::string name() const override { return "applied"; }
+  std::size_t bodyCount() const override { return held_.size(); }
+  void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const override;
+
+  /// Ends what replaces and time end, and takes up `begun`. Returns those that ran out at `tick`.
+  std::vector<WrenchInput> update(std::vector<WrenchInput> begun, Tick tick);
+  void clear() { held_.clear(); }
+  const std::vector<WrenchInput>& held() const { return held_; }
+
+ private:
+  std::vector<WrenchInput> held_;  // ordered by body, source, sequence, entry
+};
+
+/// The state of a scene and the loop that advances it. Deterministic: the same scene and the same
+/// inputs give the same bits. Not thread-safe: one thread owns it.
+class Simulator {
+ public:
+  /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a name twice, an
+  /// invalid tensor, an unknown integrator, a step that is not positive.
+  explicit Simulator(Scene scene);
+
+  const Scene& scene() const { return scene_; }
+
+  /// Ticks since the start; the state is the one at the beginning of this tick.
+  Tick tick() const { return tick_; }
+
+  /// Hands over an input; it is latched when its tick begins.
+  /// @throws std::invalid_argument for an unknown body, a number that is not finite, or a negative
+  /// number of ticks; nothing is changed then.
+  void apply(WrenchInput input);
+  void apply(ImpulseInput input);
+
+  /// Simulates one tick: latch inputs, give impulses, step, freeze bodies whose state is not
+  /// finite.
+  void step();
+
+  /// Back to the initial state, without inputs and frozen bodies. Takes one tick, so that no time
+  /// belongs to two states.
+  void reset();
+
+  const Bodies& bodies() const { return bodies_; }
+  BodyState state(Eigen::Index body) const { return bodies_.state(body); }
+
+  /// Pose and velocities of the body's root link.
+  LinkMotion linkMotion(Eigen::Index body) const;
+
+  /// Constant pose of body frame B (centre of mass, principal axes) in the root link frame.
+  const BodyFrame& bodyFrame(Eigen::Index body) const { return frames_[body]; }
+
+  /// Inputs that wait for their tick.
+  std::size_t pendingCount() const { return pending_wrenches_.size() + pending_impulses_.size(); }
+
+  /// Wrenches that act now.
+  const std::vector<WrenchInput>& heldWrenches() const { return applied_.held(); }
+
+  /// Wrenches that ran out at the beginning of the latest tick; replaced ones are not among them.
+  const std::vector<WrenchInput>& endedWrenches() const { return ended_; }
+
+  const std::vector<FrozenBody>& frozenBodies() const { return frozen_; }
+
+ private:
+  void latchInputs();
+  void freezeNonFinite(const Bodies& before);
+
+  Scene scene_;
+  std::vector<BodyFrame> frames_;
+  Bodies initial_;
+  Bodies bodies_;
+  Bodies before_;  // the state before the step, for freezing
+  Tick tick_ = 0;
+  std::unique_ptr<Integrator> integrator_;
+  ActiveEffects active_;
+  AppliedWrenches applied_;
+  bool applied_is_active_ = false;
+  std::vector<WrenchInput> pending_wrenches_;
+  std::vector<ImpulseInput> pending_impulses_;
+  std::vector<WrenchInput> ended_;
+  std::vector<FrozenBody> frozen_;
+};
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,142 @@
+#include "rigid_body_sim/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/scene_body.hpp"
+#include "effects/registry.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+std::int64_t readStep(const Parameters& parameters) {
+  const double step_s = parameters.number("step_s", {1e-6, 1, "s"}, 0.02);
+  const auto step_ns = static_cast<std::int64_t>(std::llround(step_s * 1e9));
+  // A decimal number of nanoseconds is off by at most an ulp of the product.
+  if (std::abs(step_s * 1e9 - static_cast<double>(step_ns)) > 4.5e-16 * step_s * 1e9)
+    parameters.refuse("step_s", "must be a whole number of nanoseconds");
+  return step_ns;
+}
+
+std::string pathFrom(const std::string& folder, const std::string& path) {
+  return path.front() == '/' || folder.empty() ? path : folder + "/" + path;
+}
+
+/// All bodies of the URDF files and parameters that the scene names, and their report.
+void readUrdfs(const Parameters& parameters, const SceneSources& sources, Scene& scene) {
+  const std::string joints = parameters.text("joints", "refuse");
+  if (joints != "refuse" && joints != "lock")
+    parameters.refuse("joints", "'" + joints + "' is not refuse or lock");
+  const MovableJoints movable = joints == "lock" ? MovableJoints::kLock : MovableJoints::kRefuse;
+
+  std::vector<UrdfModel> models;
+  for (const std::string& path : parameters.texts("urdf"))
+    models.push_back(readUrdfFile(pathFrom(sources.folder, path), movable));
+  if (parameters.has("urdf_parameter")) {
+    const std::string name = parameters.text("urdf_parameter");
+    if (!sources.urdf_parameter)
+      parameters.refuse("urdf_parameter",
+                        "there is no parameter server here; name files in `urdf`");
+    models.push_back(readUrdf(sources.urdf_parameter(name), "parameter " + name, movable));
+  }
+  for (const UrdfModel& model : models) {
+    scene.import_report += importReport(model);
+    for (const UrdfBody& body : model.bodies) {
+      SceneBody scene_body;
+      scene_body.name = body.name;
+      scene_body.mass_properties = body.mass_properties;
+      scene_body.frames = body.frames;
+      scene_body.X_WL = body.X_ML;
+      scene.bodies.push_back(scene_body);
+    }
+  }
+}
+
+/// Completes the scene with the bodies that have no URDF and with initial motions. Returns the
+/// block of every body below `bodies`; a body of a URDF need not have one.
+std::vector<Parameters> readBodies(const Parameters& parameters, Scene& scene) {
+  const Parameters all = parameters.child("bodies");
+  std::vector<Parameters> blocks;
+  for (const SceneBody& body : scene.bodies) blocks.push_back(all.child(body.name));
+  const std::size_t from_urdf = scene.bodies.size();
+  for (const std::string& name : all.keys()) {
+    const auto is_it = [&](const SceneBody& body) { return body.name == name; };
+    if (std::any_of(scene.bodies.begin(), scene.bodies.begin() + from_urdf, is_it)) continue;
+    blocks.push_back(all.child(name));
+    scene.bodies.push_back(bodyFromNumbers(blocks.back(), name));
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) readInitialMotion(blocks[i], scene.bodies[i]);
+  return blocks;
+}
+
+/// The bodies that an effect acts on: all but those whose block says `<effect>: false`.
+std::vector<Eigen::Index> members(const std::string& effect,
+                                  const std::vector<Parameters>& blocks) {
+  std::vector<Eigen::Index> members;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (blocks[i].boolean(effect, true)) members.push_back(static_cast<Eigen::Index>(i));
+  return members;
+}
+
+void readEffects(const Parameters& parameters, const std::vector<Parameters>& bodies,
+                 Scene& scene) {
+  const Parameters effects = parameters.child("effects");
+  scene.gyroscopic = effects.boolean("gyroscopic", true) ? Gyroscopic::kOn : Gyroscopic::kOff;
+  for (const EffectRow& row : effectRegistry()) {
+    if (!effects.has(row.name)) continue;
+    const Parameters block = effects.child(row.name);
+    if (auto effect = row.make(block, members(row.name, bodies))) scene.effects.push_back(effect);
+    block.refuseUnknown();
+  }
+  effects.refuseUnknown();
+}
+
+}  // namespace
+
+Scene readScene(const Parameters& parameters, const SceneSources& sources) {
+  Scene scene;
+  scene.step_ns = readStep(parameters);
+  scene.integrator = parameters.text("integrator", scene.integrator);
+  try {
+    integratorNamed(scene.integrator);
+  } catch (const std::invalid_argument& error) {
+    parameters.refuse("integrator", error.what());
+  }
+  readUrdfs(parameters, sources, scene);
+  const std::vector<Parameters> bodies = readBodies(parameters, scene);
+  if (scene.bodies.empty())
+    parameters.refuse("bodies", "the scene has no body; name URDF files in `urdf` or give masses");
+  readEffects(parameters, bodies, scene);
+  for (const Parameters& body : bodies) body.refuseUnknown();
+  return scene;
+}
+
+Scene readSceneFile(const std::string& path) {
+  const auto slash = path.rfind('/');
+  try {
+    const Parameters parameters(readYaml(readTextFile(path), path), "");
+    Scene scene =
+        readScene(parameters, {slash == std::string::npos ? "" : path.substr(0, slash), {}});
+    parameters.refuseUnknown();
+    return scene;
+  } catch (const std::invalid_argument& error) {
+    const std::string what = error.what();
+    throw std::invalid_argument(what.rfind(path, 0) == 0 ? what : path + ": " + what);
+  }
+}
+
+std::string summary(const Scene& scene) {
+  std::ostringstream text;
+  text << scene.bodies.size() << (scene.bodies.size() == 1 ? " body" : " bodies") << "; effects: ";
+  for (const auto& effect : scene.effects) {
+    text << effect->name() << " (" << effect->bodyCount()
+         << (effect->bodyCount() == 1 ? " body), " : " bodies), ");
+  }
+  text << "gyroscopic " << (scene.gyroscopic == Gyroscopic::kOn ? "on" : "off")
+       << "; integrator: " << scene.integrator << ", step " << scene.step_s() << " s";
+  return text.str();
+}
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,159 @@
+#include "rigid_body_sim/simulator.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace rigid_body_sim {
+namespace {
+
+bool isFinite(const AppliedWrench& applied) {
+  return applied.wrench.f_F.allFinite() && applied.wrench.t_Q_F.allFinite() &&
+         applied.p_BcmQ_B.allFinite();
+}
+
+template <class Input>
+void check(const Input& input, const Scene& scene) {
+  if (input.body < 0 || input.body >= static_cast<Eigen::Index>(scene.bodies.size()))
+    throw std::invalid_argument("there is no body " + std::to_string(input.body));
+  if (!isFinite(input.applied)) throw std::invalid_argument("input is not finite");
+  const SceneBody& body = scene.bodies[input.body];
+  const AppliedWrench& applied = input.applied;
+  if (body.is_point_mass && !(applied.wrench.t_Q_F.isZero(0) && applied.p_BcmQ_B.isZero(0)))
+    throw std::invalid_argument("a torque on the point mass '" + body.name + "'");
+}
+
+/// Moves the inputs that are due at `tick` out of `pending`.
+template <class Input>
+std::vector<Input> takeDue(std::vector<Input>& pending, Tick tick) {
+  const auto first_due = std::stable_partition(
+      pending.begin(), pending.end(), [tick](const Input& input) { return input.start > tick; });
+  std::vector<Input> due(std::make_move_iterator(first_due),
+                         std::make_move_iterator(pending.end()));
+  pending.erase(first_due, pending.end());
+  return due;
+}
+
+void copyState(const Bodies& from, Bodies& to) {
+  to.p_WBcm = from.p_WBcm;
+  to.q_WB = from.q_WB;
+  to.P_WB = from.P_WB;
+  to.L_WBcm_W = from.L_WBcm_W;
+}
+
+bool allFinite(const Bodies& bodies) {
+  return bodies.p_WBcm.allFinite() && bodies.q_WB.allFinite() && bodies.P_WB.allFinite() &&
+         bodies.L_WBcm_W.allFinite();
+}
+
+BodyFrame frameOf(const SceneBody& body) {
+  if (body.is_point_mass) {
+    // It has no rotation: L stays zero, and a unit tensor keeps its angular velocity at zero.
+    return {body.mass_properties.mass, Vector3d::Ones(), body.mass_properties.p_FBcm,
+            Quaterniond::Identity()};
+  }
+  try {
+    return bodyFrame(body.mass_properties);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body '" + body.name + "': " + error.what());
+  }
+}
+
+}  // namespace
+
+Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
+  if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
+  if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
+  std::set<std::string> names;
+  initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
+  for (const SceneBody& body : scene_.bodies) {
+    if (!names.insert(body.name).second)
+      throw std::invalid_argument("two bodies are called '" + body.name + "'");
+    const auto i = static_cast<Eigen::Index>(frames_.size());
+    frames_.push_back(frameOf(body));
+    initial_.mass(i) = frames_.back().mass;
+    initial_.I_BBcm_B.row(i) = frames_.back().I_BBcm_B;
+    const BodyState state = stateOfLink(frames_.back(), body.X_WL, body.v_WBcm,
+                                        body.is_point_mass ? Vector3d::Zero() : body.w_WB_L);
+    if (!isFinite(state))
+      throw std::invalid_argument("body '" + body.name + "': its initial momentum is not finite");
+    initial_.setState(i, state);
+  }
+  bodies_ = before_ = initial_;
+  integrator_ = integratorNamed(scene_.integrator).make(scene_.gyroscopic);
+  for (const auto& effect : scene_.effects) active_.add(effect.get());
+}
+
+void Simulator::apply(WrenchInput input) {
+  check(input, scene_);
+  if (input.ticks < 0) throw std::invalid_argument("a negative number of ticks");
+  input.start = std::max(input.start, tick_);
+  pending_wrenches_.push_back(std::move(input));
+}
+
+void Simulator::apply(ImpulseInput input) {
+  check(input, scene_);
+  input.start = std::max(input.start, tick_);
+  pending_impulses_.push_back(std::move(input));
+}
+
+void Simulator::latchInputs() {
+  ended_ = applied_.update(takeDue(pending_wrenches_, tick_), tick_);
+  const bool acts = applied_.bodyCount() > 0;
+  if (acts != applied_is_active_) acts ? active_.add(&applied_) : active_.remove(&applied_);
+  applied_is_active_ = acts;
+
+  std::vector<ImpulseInput> impulses = takeDue(pending_impulses_, tick_);
+  std::sort(impulses.begin(), impulses.end(), [](const ImpulseInput& a, const ImpulseInput& b) {
+    return std::tie(a.body, a.origin.source, a.origin.sequence, a.origin.entry) <
+           std::tie(b.body, b.origin.source, b.origin.sequence, b.origin.entry);
+  });
+  for (const ImpulseInput& input : impulses) {
+    BodyState body = bodies_.state(input.body);
+    const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
+    body.P_WB += impulse.f_F;
+    body.L_WBcm_W += impulse.t_Q_F;
+    bodies_.setState(input.body, body);
+  }
+}
+
+void Simulator::freezeNonFinite(const Bodies& before) {
+  for (const FrozenBody& frozen : frozen_) bodies_.setState(frozen.body, before.state(frozen.body));
+  if (allFinite(bodies_)) return;
+  for (Eigen::Index i = 0; i < bodies_.count(); ++i) {
+    if (isFinite(bodies_.state(i))) continue;
+    bodies_.setState(i, before.state(i));
+    frozen_.push_back({i, tick_});
+  }
+}
+
+void Simulator::step() {
+  copyState(bodies_, before_);
+  latchInputs();
+  const double step_s = scene_.step_s();
+  integrator_->step(bodies_, active_, static_cast<double>(tick_) * step_s, step_s);
+  freezeNonFinite(before_);
+  ++tick_;
+  assert(allFinite(bodies_));
+}
+
+void Simulator::reset() {
+  copyState(initial_, bodies_);
+  if (applied_is_active_) active_.remove(&applied_);
+  applied_is_active_ = false;
+  applied_.clear();
+  pending_wrenches_.clear();
+  pending_impulses_.clear();
+  ended_.clear();
+  frozen_.clear();
+  ++tick_;
+}
+
+LinkMotion Simulator::linkMotion(Eigen::Index body) const {
+  return rigid_body_sim::linkMotion(frames_[body], bodies_.state(body));
+}
+
+}  // namespace rigid_body_sim

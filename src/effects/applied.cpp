@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <tuple>
+
+#include "rigid_body_sim/simulator.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+bool isZero(const Wrench& wrench) { return wrench.f_F.isZero(0) && wrench.t_Q_F.isZero(0); }
+
+auto orderOf(const WrenchInput& input) {
+  return std::tie(input.body, input.origin.source, input.origin.sequence, input.origin.entry);
+}
+
+bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
+  return old.replaces && input.replaces && old.body == input.body &&
+         old.origin.source == input.origin.source && old.origin.sequence != input.origin.sequence;
+}
+
+}  // namespace
+
+void AppliedWrenches::addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const {
+  for (const WrenchInput& input : held_) {
+    const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(input.body)));
+    const Wrench wrench = inWorldAboutCom(input.applied, q_WB);
+    wrenches.f_W.row(input.body) += wrench.f_F;
+    wrenches.t_Bcm_W.row(input.body) += wrench.t_Q_F;
+  }
+}
+
+std::vector<WrenchInput> AppliedWrenches::update(std::vector<WrenchInput> begun, Tick tick) {
+  std::vector<WrenchInput> ended;
+  std::sort(begun.begin(), begun.end(),
+            [](const auto& a, const auto& b) { return orderOf(a) < orderOf(b); });
+  for (WrenchInput& input : begun) {
+    held_.erase(std::remove_if(held_.begin(), held_.end(),
+                               [&](const auto& old) { return isReplacedBy(old, input); }),
+                held_.end());
+    // A zero wrench only replaces: whether it is there or not makes no bit of difference.
+    if (!isZero(input.applied.wrench)) held_.push_back(std::move(input));
+  }
+  const auto runs_on = [&](const WrenchInput& input) {
+    return input.ticks == 0 || tick - input.start < input.ticks;
+  };
+  const auto first_ended = std::stable_partition(held_.begin(), held_.end(), runs_on);
+  ended.assign(std::make_move_iterator(first_ended), std::make_move_iterator(held_.end()));
+  held_.erase(first_ended, held_.end());
+  std::sort(held_.begin(), held_.end(),
+            [](const auto& a, const auto& b) { return orderOf(a) < orderOf(b); });
+  return ended;
+}
+
+}  // namespace rigid_body_sim

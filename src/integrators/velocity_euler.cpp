@@ -1,0 +1,76 @@
+// The founding text's own methods (section 7), to the letter: Euler's method on velocities, with
+// the quaternion exponential of section 6 for the attitude. They are here as what most engines do,
+// and as the yardstick of what the others cost; the tests show where they fail.
+#include "integrators/families.hpp"
+#include "rigid_body_sim/rotation.hpp"
+#include "rigid_body_sim/wrench.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+/// Velocities of one body, in world axes.
+struct Velocities {
+  Vector3d v_WBcm;
+  Vector3d w_WB;
+};
+
+/// w' in body axes: I w' = t - w x I w, the last term only if the gyroscopic effect is on.
+template <Gyroscopic gyroscopic>
+Vector3d angularAcceleration(const Vector3d& w_B, const Vector3d& t_B, const Vector3d& I) {
+  if constexpr (gyroscopic == Gyroscopic::kOff) return t_B.cwiseQuotient(I);
+  return (t_B - w_B.cross(Vector3d(I.cwiseProduct(w_B)))).cwiseQuotient(I);
+}
+
+enum class PoseMovesWith { kOldVelocity, kNewVelocity };
+
+template <PoseMovesWith pose_moves_with, Gyroscopic gyroscopic>
+class VelocityEuler : public Integrator {
+ public:
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    const Wrenches* wrenches = effects.empty() ? nullptr : &effects.evaluate(bodies, time_s);
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      Wrench applied;
+      if (wrenches) applied = {wrenches->f_W.row(i), wrenches->t_Bcm_W.row(i)};
+      stepBody(bodies, i, applied, h);
+    }
+  }
+
+ private:
+  static void stepBody(Bodies& bodies, Eigen::Index i, const Wrench& applied, double h) {
+    BodyState body = bodies.state(i);
+    const double mass = bodies.mass(i);
+    const Vector3d I = bodies.moments(i);
+
+    const Vector3d w_B = angularVelocityInBody(body, I);
+    const Vector3d t_B = body.q_WB.conjugate() * applied.t_Q_F;
+    const Velocities old = {velocity(body, mass), body.q_WB * w_B};
+    const Velocities next = {old.v_WBcm + (h / mass) * applied.f_F,
+                             body.q_WB * (w_B + h * angularAcceleration<gyroscopic>(w_B, t_B, I))};
+
+    const Velocities& moving = pose_moves_with == PoseMovesWith::kNewVelocity ? next : old;
+    body.p_WBcm += h * moving.v_WBcm;
+    body.q_WB = renormalized(rotationExp(h * moving.w_WB) * body.q_WB);
+    body.P_WB = mass * next.v_WBcm;
+    body.L_WBcm_W = body.q_WB * I.cwiseProduct(body.q_WB.conjugate() * next.w_WB);
+    bodies.setState(i, body);
+  }
+};
+
+template <PoseMovesWith pose_moves_with>
+std::unique_ptr<Integrator> make(Gyroscopic gyroscopic) {
+  if (gyroscopic == Gyroscopic::kOn)
+    return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOn>>();
+  return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOff>>();
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeExplicitEulerVelocity(Gyroscopic gyroscopic) {
+  return make<PoseMovesWith::kOldVelocity>(gyroscopic);
+}
+
+std::unique_ptr<Integrator> makeSemiImplicitVelocity(Gyroscopic gyroscopic) {
+  return make<PoseMovesWith::kNewVelocity>(gyroscopic);
+}
+
+}  // namespace rigid_body_sim
