@@ -1,0 +1,36 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include "node/inputs.hpp"
+#include "node/pace.hpp"
+
+namespace rigid_body_sim {
+
+/// Publishes on /diagnostics once a second of wall time: what is simulated, whether it keeps up,
+/// what became of the inputs, and which bodies are frozen.
+class Diagnostics {
+ public:
+  Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs,
+              const Pace& pace, double real_time_factor);
+
+ private:
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportInputs(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportFrozen(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  const Simulator& simulator_;
+  const Inputs& inputs_;
+  const Pace& pace_;
+  double real_time_factor_;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer timer_;
+  ros::SteadyTime last_time_ = ros::SteadyTime::now();
+  Tick last_tick_ = 0;
+  std::uint64_t last_refused_ = 0;
+  std::uint64_t last_rebases_ = 0;
+};
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,85 @@
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <chrono>
+#include <exception>
+#include <iostream>
+
+#include "node/conversions.hpp"
+#include "node/master_watch.hpp"
+#include "node/names.hpp"
+#include "node/options.hpp"
+#include "node/sim_node.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+/// Waits until there is a master, saying so every five seconds. False if ROS was shut down first.
+bool waitForMaster() {
+  ros::WallTime told;
+  while (!ros::master::check()) {
+    if (ros::isShuttingDown()) return false;
+    if ((ros::WallTime::now() - told).toSec() >= 5) {
+      ROS_WARN("no master at %s yet", ros::master::getURI().c_str());
+      told = ros::WallTime::now();
+    }
+    ros::WallDuration(0.2).sleep();
+  }
+  return true;
+}
+
+Value privateParameters(const ros::NodeHandle& private_nh) {
+  XmlRpc::XmlRpcValue all;
+  if (!private_nh.getParam("", all)) return Value{Value::Map()};
+  return toValue(all);
+}
+
+std::string urdfParameter(const ros::NodeHandle& nh, const std::string& name) {
+  std::string text;
+  std::string resolved;
+  if (!nh.searchParam(name, resolved) || !nh.getParam(resolved, text))
+    throw std::invalid_argument("urdf_parameter: there is no string parameter '" + name + "'");
+  return text;
+}
+
+std::int64_t wallTime() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue) {
+  const Parameters parameters(privateParameters(private_nh), "");
+  const bool use_sim_time = ros::param::param("/use_sim_time", false);
+  const NodeOptions options = readNodeOptions(parameters, use_sim_time, wallTime());
+  Scene scene = readScene(parameters, {options.scene_folder,
+                                       [&](const auto& name) { return urdfParameter(nh, name); }});
+  parameters.refuseUnknown();
+  ROS_INFO("%s", summary(scene).c_str());
+  std::cout << scene.import_report << std::flush;
+
+  SimNode node(nh, private_nh, queue, std::move(scene), options);
+  const MasterWatch watch({private_nh.resolveName(names::kPause),
+                           private_nh.resolveName(names::kStep),
+                           private_nh.resolveName(names::kReset)});
+  node.run();
+}
+
+}  // namespace
+}  // namespace rigid_body_sim
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "rigid_body_sim");
+  if (!rigid_body_sim::waitForMaster()) return 0;
+  ros::CallbackQueue queue;
+  ros::NodeHandle nh;
+  ros::NodeHandle private_nh("~");
+  nh.setCallbackQueue(&queue);
+  private_nh.setCallbackQueue(&queue);
+  try {
+    rigid_body_sim::simulate(nh, private_nh, queue);
+  } catch (const std::invalid_argument& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

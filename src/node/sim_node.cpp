@@ -1,0 +1,119 @@
+#include "node/sim_node.hpp"
+
+#include <cmath>
+
+#include "node/conversions.hpp"
+#include "node/names.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+constexpr std::uint32_t kMaxSteps = 1'000'000;
+constexpr double kIdle_s = 0.1;  // how often a paused loop looks whether it shall end
+
+std::int64_t steadyNow() { return static_cast<std::int64_t>(ros::SteadyTime::now().toNSec()); }
+
+std::int64_t wallPeriod(const Scene& scene, double real_time_factor) {
+  if (real_time_factor == 0) return 0;
+  return static_cast<std::int64_t>(
+      std::llround(static_cast<double>(scene.step_ns) / real_time_factor));
+}
+
+}  // namespace
+
+SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue,
+                 Scene scene, const NodeOptions& options)
+    : queue_(queue),
+      simulator_(std::move(scene)),
+      time_{options.start_time_ns, simulator_.scene().step_ns},
+      options_(options),
+      pace_(wallPeriod(simulator_.scene(), options.real_time_factor)),
+      inputs_(nh, simulator_, time_, options_),
+      outputs_(nh, simulator_, time_, options_),
+      diagnostics_(nh, simulator_, inputs_, pace_, options.real_time_factor),
+      paused_(options.paused) {
+  services_.push_back(private_nh.advertiseService(names::kPause, &SimNode::pause, this));
+  services_.push_back(private_nh.advertiseService(names::kStep, &SimNode::step, this));
+  services_.push_back(private_nh.advertiseService(names::kReset, &SimNode::reset, this));
+}
+
+void SimNode::run() {
+  publishTick();
+  pace_.restart(steadyNow());
+  while (ros::ok()) {
+    if (paused_) {
+      queue_.callAvailable(ros::WallDuration(kIdle_s));
+      if (!paused_) pace_.restart(steadyNow());
+      continue;
+    }
+    runTick();
+    waitUntilDue();
+    publishTick();
+    pace_.tickDone(steadyNow());
+  }
+}
+
+void SimNode::runTick() {
+  simulator_.step();
+  is_published_ = false;
+  inputs_.reportExpired();
+  const std::vector<FrozenBody>& frozen = simulator_.frozenBodies();
+  for (; frozen_told_ < frozen.size(); ++frozen_told_) {
+    ROS_ERROR(
+        "%s is frozen at its last good state: its next one is not finite (tick %ld); ~reset "
+        "clears it",
+        simulator_.scene().bodies[frozen[frozen_told_].body].name.c_str(),
+        static_cast<long>(frozen[frozen_told_].tick));
+  }
+}
+
+void SimNode::publishTick() {
+  if (is_published_) return;
+  outputs_.publish();
+  is_published_ = true;
+}
+
+/// Runs callbacks until the tick is due, or until one of them has published it.
+void SimNode::waitUntilDue() {
+  do {
+    const double wait_s = 1e-9 * static_cast<double>(pace_.untilDue(steadyNow()));
+    queue_.callAvailable(ros::WallDuration(std::max(0.0, wait_s)));
+  } while (ros::ok() && !is_published_ && pace_.untilDue(steadyNow()) > 0);
+}
+
+bool SimNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  publishTick();  // the tick that is on its way, so that nothing moves after the answer
+  paused_ = request.data;
+  response.success = true;
+  response.message = paused_ ? "paused" : "running";
+  return true;
+}
+
+bool SimNode::step(Step::Request& request, Step::Response& response) {
+  if (!paused_) {
+    response.message = "the simulation is running; pause it first";
+  } else if (request.ticks < 1 || request.ticks > kMaxSteps) {
+    response.message = std::to_string(request.ticks) + " ticks; allowed are 1 to 1000000";
+  } else {
+    for (std::uint32_t i = 0; i < request.ticks && ros::ok(); ++i) {
+      runTick();
+      publishTick();
+    }
+    response.success = true;
+    response.states = toStates(simulator_, options_.world_frame, time_.at(simulator_.tick()));
+  }
+  return true;
+}
+
+bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  publishTick();
+  simulator_.reset();
+  frozen_told_ = 0;
+  is_published_ = false;
+  publishTick();
+  response.success = true;
+  response.message = "initial state; time goes on";
+  return true;
+}
+
+}  // namespace rigid_body_sim
