@@ -73,8 +73,9 @@ struct PrincipalInertia {
 PrincipalInertia principalInertia(const Matrix3d& I_BBcm_F);
 
 /// Why no rigid body has these mass properties; empty if one has. Checked: mass finite and > 0,
-/// finite centre of mass, finite symmetric tensor, positive principal moments, and the triangle
-/// inequality I1 + I2 >= I3 with a relative slack of 1e-6 (URDF files carry rounded numbers).
+/// finite centre of mass, finite symmetric tensor, positive principal moments (in a full tensor:
+/// above its rounding), and the triangle inequality I1 + I2 >= I3 with a relative slack of 1e-6
+/// (URDF files carry rounded numbers).
 std::string invalidity(const MassProperties& body);
 
 /// The valid tensor with the same principal axes and the least change of the second moments

@@ -33,9 +33,10 @@ struct Scene {
   Gyroscopic gyroscopic = Gyroscopic::kOn;
   std::vector<SceneBody> bodies;
   std::vector<std::shared_ptr<const Effect>> effects;
-  std::string import_report;  ///< what the URDF files held; empty without any
+  std::string import_report;          ///< what the URDF files held; empty without any
+  std::vector<std::string> warnings;  ///< of the import, one line each
 
-  double step_s() const { return static_cast<double>(step_ns) * 1e-9; }
+  double step_s() const { return static_cast<double>(step_ns) / 1e9; }
 };
 
 /// Where a scene finds what it refers to.
@@ -54,8 +55,11 @@ Scene readScene(const Parameters& parameters, const SceneSources& sources);
 /// Reads a scene file (YAML). @throws std::invalid_argument as readScene, also for unknown keys.
 Scene readSceneFile(const std::string& path);
 
-/// One line that says what is simulated: `effects: gravity (2 bodies); gyroscopic on; split2, 0.02
-/// s`.
+/// One line that says what a body is: mass, centre of mass, principal moments.
+std::string summary(const SceneBody& body);
+
+/// One line that says what is simulated: `3 bodies; effects: gravity (2 bodies), gyroscopic on;
+/// integrator: split2, step 0.02 s`.
 std::string summary(const Scene& scene);
 
 }  // namespace rigid_body_sim

@@ -31,18 +31,33 @@ std::string rangeText(const Allowed& allowed) {
   return text.str();
 }
 
-/// YAML 1.1, which ROS uses, takes 1e-6 for a string: it wants a dot.
+/// A decimal number as YAML 1.1 wants it: a dot with a digit before it, a sign in the exponent.
+std::string asYamlNumber(const std::string& text) {
+  const auto e = text.find_first_of("eE");
+  std::string mantissa = text.substr(0, e);
+  const std::size_t first = mantissa.find_first_not_of("+-");
+  if (mantissa[first] == '.') mantissa.insert(first, "0");
+  if (e == std::string::npos) return mantissa;
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  const bool has_sign = text[e + 1] == '+' || text[e + 1] == '-';
+  return mantissa + "e" + (has_sign ? "" : "+") + text.substr(e + 1);
+}
+
+/// YAML 1.1, which ROS uses, takes 1e-6 and 1.0e6 for strings: it wants a dot and the exponent's
+/// sign.
 std::string hintForNumber(const Value& value) {
   const auto* text = std::get_if<std::string>(&value.data);
   if (!text || text->empty()) return {};
   char* end = nullptr;
   std::strtod(text->c_str(), &end);
   if (*end != '\0') return {};
-  const auto exponent = text->find_first_of("eE");
-  if (exponent == std::string::npos || text->find('.') != std::string::npos)
-    return "; it is a string: leave the quotes out";
-  return "; to YAML this is a string: write " + text->substr(0, exponent) + ".0" +
-         text->substr(exponent);
+  const auto e = text->find_first_of("eE");
+  if (e == std::string::npos) return "; it is a string: leave the quotes out";
+  std::string mantissa = text->substr(0, e);
+  std::string exponent = text->substr(e + 1);
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  if (exponent.find_first_of("+-") == std::string::npos) exponent.insert(0, "+");
+  return "; to YAML this is a string: write " + mantissa + "e" + exponent;
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {

@@ -43,6 +43,7 @@ void readUrdfs(const Parameters& parameters, const SceneSources& sources, Scene&
   }
   for (const UrdfModel& model : models) {
     scene.import_report += importReport(model);
+    for (const std::string& warning : model.warnings) scene.warnings.push_back(warning);
     for (const UrdfBody& body : model.bodies) {
       SceneBody scene_body;
       scene_body.name = body.name;
@@ -71,12 +72,16 @@ std::vector<Parameters> readBodies(const Parameters& parameters, Scene& scene) {
   return blocks;
 }
 
-/// The bodies that an effect acts on: all but those whose block says `<effect>: false`.
-std::vector<Eigen::Index> members(const std::string& effect,
+/// The bodies that an effect acts on: all but those whose block says `<effect>: false`. They may
+/// say so of an effect that the scene does not have, but not ask for one.
+std::vector<Eigen::Index> members(const std::string& effect, bool scene_has_it,
                                   const std::vector<Parameters>& blocks) {
   std::vector<Eigen::Index> members;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (blocks[i].boolean(effect, true)) members.push_back(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].boolean(effect, scene_has_it)) members.push_back(static_cast<Eigen::Index>(i));
+    if (!scene_has_it && !members.empty())
+      blocks[i].refuse(effect, "the scene has no such effect; list it under `effects`");
+  }
   return members;
 }
 
@@ -85,9 +90,10 @@ void readEffects(const Parameters& parameters, const std::vector<Parameters>& bo
   const Parameters effects = parameters.child("effects");
   scene.gyroscopic = effects.boolean("gyroscopic", true) ? Gyroscopic::kOn : Gyroscopic::kOff;
   for (const EffectRow& row : effectRegistry()) {
+    std::vector<Eigen::Index> acts_on = members(row.name, effects.has(row.name), bodies);
     if (!effects.has(row.name)) continue;
     const Parameters block = effects.child(row.name);
-    if (auto effect = row.make(block, members(row.name, bodies))) scene.effects.push_back(effect);
+    if (auto effect = row.make(block, std::move(acts_on))) scene.effects.push_back(effect);
     block.refuseUnknown();
   }
   effects.refuseUnknown();
@@ -125,6 +131,19 @@ Scene readSceneFile(const std::string& path) {
     const std::string what = error.what();
     throw std::invalid_argument(what.rfind(path, 0) == 0 ? what : path + ": " + what);
   }
+}
+
+std::string summary(const SceneBody& body) {
+  const MassProperties& properties = body.mass_properties;
+  std::ostringstream text;
+  text << body.name << ": " << properties.mass << " kg, centre of mass ("
+       << properties.p_FBcm.transpose() << ") m";
+  if (body.is_point_mass)
+    text << ", a point mass";
+  else
+    text << ", principal moments (" << principalInertia(properties.I_BBcm_F).I_BBcm_B.transpose()
+         << ") kg m^2";
+  return text.str();
 }
 
 std::string summary(const Scene& scene) {

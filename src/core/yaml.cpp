@@ -11,10 +11,11 @@ namespace rigid_body_sim {
 namespace {
 
 /// The types that PyYAML, and so rosparam, gives to plain scalars (YAML 1.1): a float needs a dot,
-/// and a sign in its exponent.
+/// a digit before it if it has a sign, and a sign in its exponent. Octal, hexadecimal, base-60 and
+/// underscored integers stay strings, so that no number means what it does not look like.
 Value scalar(const YAML::Node& node) {
   static const std::regex kInteger("[-+]?(0|[1-9][0-9]*)");
-  static const std::regex kFloat("[-+]?([0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
+  static const std::regex kFloat("([-+]?[0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
   static const std::regex kSpecial("([-+]?\\.(inf|Inf|INF))|\\.(nan|NaN|NAN)");
   static const std::regex kTrue("yes|Yes|YES|true|True|TRUE|on|On|ON");
   static const std::regex kFalse("no|No|NO|false|False|FALSE|off|Off|OFF");

@@ -53,14 +53,20 @@ void freeSpinWithoutGyroscopicTerm(BodyState& body, const Vector3d& I, double h)
 }
 
 template <Gyroscopic gyroscopic>
+void rotate(BodyState& body, const Vector3d& I, double h) {
+  if constexpr (gyroscopic == Gyroscopic::kOn)
+    body.q_WB = freeAttitude(body.q_WB, body.L_WBcm_W, I, h);
+  else
+    freeSpinWithoutGyroscopicTerm(body, I, h);
+}
+
+template <Gyroscopic gyroscopic>
 void drift(Bodies& bodies, double h) {
   for (Eigen::Index i = 0; i < bodies.count(); ++i) {
     BodyState body = bodies.state(i);
     body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
-    if constexpr (gyroscopic == Gyroscopic::kOn)
-      body.q_WB = freeAttitude(body.q_WB, body.L_WBcm_W, bodies.moments(i), h);
-    else
-      freeSpinWithoutGyroscopicTerm(body, bodies.moments(i), h);
+    // Without spin, as a point mass always is, there is no rotation to compute.
+    if (!body.L_WBcm_W.isZero(0)) rotate<gyroscopic>(body, bodies.moments(i), h);
     bodies.setState(i, body);
   }
 }

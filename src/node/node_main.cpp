@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <exception>
-#include <iostream>
 
 #include "node/conversions.hpp"
 #include "node/master_watch.hpp"
@@ -54,8 +53,9 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   Scene scene = readScene(parameters, {options.scene_folder,
                                        [&](const auto& name) { return urdfParameter(nh, name); }});
   parameters.refuseUnknown();
+  for (const SceneBody& body : scene.bodies) ROS_INFO("%s", summary(body).c_str());
+  for (const std::string& warning : scene.warnings) ROS_WARN("%s", warning.c_str());
   ROS_INFO("%s", summary(scene).c_str());
-  std::cout << scene.import_report << std::flush;
 
   SimNode node(nh, private_nh, queue, std::move(scene), options);
   const MasterWatch watch({private_nh.resolveName(names::kPause),

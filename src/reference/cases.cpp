@@ -1,0 +1,73 @@
+#include "reference/cases.hpp"
+
+#include <stdexcept>
+
+namespace rigid_body_sim::reference {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+std::vector<Case> makeCases() {
+  std::vector<Case> cases;
+  cases.push_back({"dzhanibekov",
+                   1,
+                   {1, 2, 3},
+                   {0.1, 5, 0.1},
+                   "spin about the intermediate axis, a little off it: turns over again and again "
+                   "(V. Dzhanibekov, Salyut 7, 1985; rates of S. Peters' benchmark 'boxes')"});
+
+  Case brick = {"nesc_brick",
+                2.26796189586,
+                {0.00256821747, 0.00842101104, 0.00975465594},
+                {10 * kDegree, 20 * kDegree, 30 * kDegree},
+                "NASA/TM-2015-218675, check case 2: tumbling brick; SI from slug ft^2"};
+  // Simulation 04 of the report. Nine digits of q: half a unit of the last, twice for the angle.
+  brick.published = {30,
+                     Quaterniond(0.881147185, -0.470182528, -0.011728252, -0.048687540),
+                     {0.2202324653, -0.3036432161, 0.5431392879},
+                     2e-9,
+                     1e-10};
+  cases.push_back(brick);
+
+  cases.push_back({"prolate_top",
+                   1,
+                   {0.4, 1, 1},
+                   {6, 1, -2},
+                   "closed form: two equal moments, the single one the smallest"});
+  cases.push_back({"oblate_top",
+                   1,
+                   {1, 1, 1.8},
+                   {1, -2, 6},
+                   "closed form: two equal moments, the single one the largest"});
+  cases.push_back({"thin_rod",
+                   1,
+                   {1e-6, 1, 1},
+                   {10, 1, 2},
+                   "closed form: moments a million to one, spinning about itself"});
+  cases.push_back({"sphere",
+                   1,
+                   {0.7, 0.7, 0.7},
+                   {1, -2, 3},
+                   "closed form: three equal moments, a constant rate"});
+  cases.push_back({"tumbling_stone",
+                   1,
+                   {1, 1.3, 2.1},
+                   {1.1, -2.3, 0.7},
+                   "three different moments, no axis near the spin"});
+  return cases;
+}
+
+}  // namespace
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = makeCases();
+  return all;
+}
+
+const Case& caseNamed(const std::string& name) {
+  for (const Case& one : cases())
+    if (one.name == name) return one;
+  throw std::invalid_argument("there is no case '" + name + "'");
+}
+
+}  // namespace rigid_body_sim::reference

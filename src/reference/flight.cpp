@@ -1,0 +1,111 @@
+#include "reference/flight.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace rigid_body_sim::reference {
+namespace {
+
+/// p, q (x, y, z, w), P, L in one column.
+using Column = Eigen::Matrix<Real, 13, 1>;
+
+Column packed(const State& body) {
+  Column y;
+  y << body.p_WBcm, body.q_WB.coeffs(), body.P_WB, body.L_WBcm_W;
+  return y;
+}
+
+State unpacked(const Column& y) {
+  return {y.segment<3>(0), Quaternionr(Eigen::Matrix<Real, 4, 1>(y.segment<4>(3))), y.segment<3>(7),
+          y.segment<3>(10)};
+}
+
+struct Equations {
+  Real mass;
+  Vector3r I;
+  const PushLaw& law;
+
+  Column operator()(Real t, const Column& y) const {
+    const State body = unpacked(y);
+    const Push push = law(t, body);
+    const Vector3r w_B = (body.q_WB.conjugate() * body.L_WBcm_W).cwiseQuotient(I);
+    const Vector3r half_w = Real(0.5) * (body.q_WB * w_B);
+    const Quaternionr rate = Quaternionr(0, half_w.x(), half_w.y(), half_w.z()) * body.q_WB;
+    Column slope;
+    slope << body.P_WB / mass, rate.coeffs(), push.f_W, push.t_Bcm_W;
+    return slope;
+  }
+};
+
+constexpr int kColumns = 8;  // order 16
+
+/// One step of `span` [s]: midpoint rule with 2, 4, ... 16 substeps, extrapolated in their squares.
+Column extrapolatedStep(const Equations& f, Real t, const Column& y, Real span) {
+  std::array<Column, kColumns> table;
+  for (int j = 0; j < kColumns; ++j) {
+    const int n = 2 * (j + 1);
+    const Real h = span / n;
+    Column before = y;
+    Column now = y + h * f(t, y);
+    for (int i = 1; i < n; ++i) {
+      const Column next = before + 2 * h * f(t + i * h, now);
+      before = now;
+      now = next;
+    }
+    table[j] = now;
+    for (int k = j; k > 0; --k) {
+      const Real ratio = Real(j + 1) / Real(k);
+      table[k - 1] = table[k] + (table[k] - table[k - 1]) / (ratio * ratio - 1);
+    }
+  }
+  return table[0];
+}
+
+Column run(const Equations& f, Column y, Real time_s, int steps) {
+  const Real span = time_s / steps;
+  for (int i = 0; i < steps; ++i) {
+    y = extrapolatedStep(f, i * span, y, span);
+    y.segment<4>(3).normalize();
+  }
+  return y;
+}
+
+Real differenceOf(const Column& a, const Column& b) {
+  Real worst = 0;
+  for (const auto& [first, size] :
+       {std::pair(0, 3), std::pair(3, 4), std::pair(7, 3), std::pair(10, 3)}) {
+    const Real scale = std::max(Real(1), a.segment(first, size).norm());
+    worst = std::max(worst, (a - b).segment(first, size).cwiseAbs().maxCoeff() / scale);
+  }
+  return worst;
+}
+
+}  // namespace
+
+State extended(const BodyState& body) {
+  return {body.p_WBcm.cast<Real>(), body.q_WB.cast<Real>(), body.P_WB.cast<Real>(),
+          body.L_WBcm_W.cast<Real>()};
+}
+
+BodyState rounded(const State& body) {
+  return {body.p_WBcm.cast<double>(), body.q_WB.cast<double>(), body.P_WB.cast<double>(),
+          body.L_WBcm_W.cast<double>()};
+}
+
+Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
+           double time_s) {
+  const Equations equations = {mass, I_BBcm_B.cast<Real>(), law};
+  Column y0 = packed(extended(start));
+  y0.segment<4>(3).normalize();
+  Column coarse = run(equations, y0, time_s, 4);
+  for (int steps = 8; steps <= 1 << 14; steps *= 2) {
+    const Column fine = run(equations, y0, time_s, steps);
+    const Real doubt = differenceOf(fine, coarse);
+    if (doubt < 1e-15L) return {rounded(unpacked(fine)), static_cast<double>(doubt)};
+    coarse = fine;
+  }
+  throw std::runtime_error("the reference flight does not settle: too fast, too long or chaotic");
+}
+
+}  // namespace rigid_body_sim::reference

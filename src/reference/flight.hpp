@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+
+#include "rigid_body_sim/body_state.hpp"
+
+namespace rigid_body_sim::reference {
+
+using Real = long double;
+using Vector3r = Eigen::Matrix<Real, 3, 1>;
+using Quaternionr = Eigen::Quaternion<Real>;
+
+/// BodyState in extended precision.
+struct State {
+  Vector3r p_WBcm;
+  Quaternionr q_WB;
+  Vector3r P_WB;
+  Vector3r L_WBcm_W;
+};
+
+State extended(const BodyState& body);
+BodyState rounded(const State& body);
+
+/// Force [N] and torque about the centre of mass [N m], in world axes.
+struct Push {
+  Vector3r f_W = Vector3r::Zero();
+  Vector3r t_Bcm_W = Vector3r::Zero();
+};
+
+/// What acts on a body at a time [s] in a state; smooth.
+using PushLaw = std::function<Push(Real time_s, const State& body)>;
+
+inline Push nothing(Real, const State&) { return {}; }
+
+/// Where a flight ends, and how far that is to be trusted.
+struct Flight {
+  BodyState end;
+  double doubt;  ///< largest difference of any component to the same flight in half as many steps,
+                 ///< relative to the size of its vector or to one, whichever is larger
+};
+
+/// The body after `time_s` [s] under a law, from time 0: the equations of motion themselves,
+/// x' = P/m, q' = w q/2, P' = f, L' = t, w = R I^-1 R^T L (founding text, section 7), by the
+/// extrapolated midpoint rule of order 16 in long double (Gragg 1965; Hairer, Norsett and Wanner,
+/// Solving Ordinary Differential Equations I, II.9). It shares no formula with the integrators.
+/// The number of steps doubles until the end no longer changes.
+/// @throws std::runtime_error if it never settles within 1e-15.
+Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
+           double time_s);
+
+}  // namespace rigid_body_sim::reference
