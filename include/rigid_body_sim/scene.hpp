@@ -26,6 +26,9 @@ struct SceneBody {
   bool is_point_mass = false;          ///< has no rotation; takes no torque
 };
 
+/// Name of the frame at a body's centre of mass, along its principal axes.
+inline std::string comFrameName(const std::string& body) { return body + "/com"; }
+
 /// All that a simulation starts from.
 struct Scene {
   std::int64_t step_ns = 20'000'000;

@@ -64,7 +64,7 @@ class AppliedWrenches : public Effect {
 /// inputs give the same bits. Not thread-safe: one thread owns it.
 class Simulator {
  public:
-  /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a name twice, an
+  /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a frame twice, an
   /// invalid tensor, an unknown integrator, a step that is not positive.
   explicit Simulator(Scene scene);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -62,16 +62,30 @@ BodyFrame frameOf(const SceneBody& body) {
   }
 }
 
+/// Every frame of every body becomes a frame of one tree.
+void requireUniqueFrames(const Scene& scene) {
+  std::map<std::string, std::string> owners;  // body by frame
+  const auto add = [&](const std::string& frame, const std::string& body) {
+    const auto [found, is_new] = owners.emplace(frame, body);
+    if (!is_new)
+      throw std::invalid_argument("frame '" + frame + "' is there twice: in '" + found->second +
+                                  "' and in '" + body + "'");
+  };
+  for (const SceneBody& body : scene.bodies) {
+    add(body.name, body.name);
+    add(comFrameName(body.name), body.name);
+    for (const FixedFrame& frame : body.frames) add(frame.name, body.name);
+  }
+}
+
 }  // namespace
 
 Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
-  std::set<std::string> names;
+  requireUniqueFrames(scene_);
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
   for (const SceneBody& body : scene_.bodies) {
-    if (!names.insert(body.name).second)
-      throw std::invalid_argument("two bodies are called '" + body.name + "'");
     const auto i = static_cast<Eigen::Index>(frames_.size());
     frames_.push_back(frameOf(body));
     initial_.mass(i) = frames_.back().mass;

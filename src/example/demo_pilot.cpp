@@ -14,13 +14,13 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
 
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using rigid_body_sim::BodyStates;
 using rigid_body_sim::ImpulseStamped;
@@ -58,10 +58,10 @@ constexpr double kLabelHeight = 1.77;  // [m]
 const Vector3d kStemTip(0, 0, 0.27);   // [m] in t_handle
 
 struct Motion {
-  Vector3d p_WL;     // [m] link origin in the world
-  Quaterniond q_WL;  // link in the world
-  Vector3d v_WL_L;   // [m/s] of the link's origin, in the link's axes
-  Vector3d w_WL_L;   // [rad/s], in the link's axes
+  Vector3d p_WL;            // [m] link origin in the world
+  Eigen::Quaterniond q_WL;  // link in the world
+  Vector3d v_WL_L;          // [m/s] of the link's origin, in the link's axes
+  Vector3d w_WL_L;          // [rad/s], in the link's axes
 };
 
 Vector3d toEigen(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
@@ -93,9 +93,7 @@ geometry_msgs::Wrench holdWrench(const Motion& motion, const Motion& home) {
   return wrench;
 }
 
-struct Color {
-  float r, g, b;
-};
+using Color = std::array<float, 3>;
 constexpr Color kWhite{1, 1, 1}, kAmber{1, 0.8f, 0.3f}, kGreen{0.45f, 0.95f, 0.45f};
 
 // How an impulse is shown.
@@ -127,7 +125,7 @@ class DemoPilot {
     std::map<std::string, Motion> motions, homes;
     std::map<std::string, Arrow> arrows;
     double held = kNever, pushed = kNever, kicked = kNever, thrown = kNever;  // [s] when last
-    bool spun_up = false;
+    bool spun_up = false, has_risen = true, is_too_late = false;
     nav_msgs::Path trail;
   };
 
@@ -135,7 +133,6 @@ class DemoPilot {
     const double now = states.header.stamp.toSec();
     if (now < m_.now) m_ = Memory();
     if (m_.now == kNever) m_.pushed = m_.kicked = now - kPushPeriod + 1.0;  // the first ones soon
-    const bool too_fast = m_.now != kNever && now > m_.now + kLead + 1e-3;
     m_.now = now;
     m_.header = states.header;
     for (std::size_t i = 0; i < states.names.size(); ++i) {
@@ -143,14 +140,11 @@ class DemoPilot {
       m_.homes.emplace(states.names[i], motion);
       m_.motions.insert_or_assign(states.names[i], motion);
     }
-    if (too_fast) {
-      ROS_WARN_ONCE("the simulation runs faster than it can be flown: hands off");
-      return;
-    }
+    if (m_.motions.count("t_handle")) extendTrail();
+    if (m_.motions.count("ball")) juggleBall();
+    if (m_.is_too_late) return;
     if (m_.motions.count("astrobee")) flyAstrobee();
     if (m_.motions.count("nesc_brick")) spinBrick();
-    if (m_.motions.count("ball")) juggleBall();
-    if (m_.motions.count("t_handle")) extendTrail();
   }
 
   void flyAstrobee() {
@@ -185,7 +179,13 @@ class DemoPilot {
     const double v_now = (ball.q_WL * ball.v_WL_L).z();
     const double v = v_now - kGravity * kLead;
     const double z = ball.p_WL.z() + v_now * kLead - 0.5 * kGravity * kLead * kLead;
-    if (v > 0 || z > kBallLow || m_.now < m_.thrown + 2 * kLead) return;
+    m_.has_risen |= v_now > 0;
+    if (v > 0 || z > kBallLow || m_.now < m_.thrown + 2 * kLead || m_.is_too_late) return;
+    // As fast as possible can be faster than messages travel: then nothing can be flown from here.
+    m_.is_too_late = !m_.has_risen;
+    if (m_.is_too_late) ROS_WARN("the last throw came too late: hands off");
+    if (m_.is_too_late) return;
+    m_.has_risen = false;
     m_.thrown = m_.now;
     const double impulse = kBallMass * (std::sqrt(2 * kGravity * (kBallHigh - z)) - v);
     const Vector3d below(ball.p_WL.x(), ball.p_WL.y(), kBallLow - kBallRadius);
@@ -220,7 +220,6 @@ class DemoPilot {
   }
 
   void draw(const ros::WallTimerEvent&) {
-    if (m_.now == kNever) return;
     markers_.markers.clear();
     label("t_handle", "T-handle", "left alone: it flips");
     label("astrobee", "Astrobee", "held by wrenches");
@@ -251,7 +250,7 @@ class DemoPilot {
     marker.header.frame_id = frame;
     marker.ns = ns;
     marker.type = type;
-    marker.color.r = c.r, marker.color.g = c.g, marker.color.b = c.b, marker.color.a = 1;
+    marker.color.r = c[0], marker.color.g = c[1], marker.color.b = c[2], marker.color.a = 1;
     marker.pose.position = toPoint(p);
     marker.pose.orientation.w = 1;
     return marker;
@@ -272,18 +271,15 @@ class DemoPilot {
     status.scale.z = 0.085;
   }
 
-  // Rings where the ball's lowest point is thrown and where its highest should turn.
+  // Bars where the ball's lowest point is thrown and where its highest should turn.
   void drawBallRange() {
     if (!m_.homes.count("ball")) return;
     const Vector3d& home = m_.homes.at("ball").p_WL;
+    const Vector3d p(home.x(), home.y(), 0);
+    Marker& bars = addMarker("ball range", m_.header.frame_id, Marker::LINE_LIST, kWhite, p);
+    bars.scale.x = 0.008;
     for (const double z : {kBallLow - kBallRadius, kBallHigh + kBallRadius}) {
-      Marker& ring = addMarker("ball range", m_.header.frame_id, Marker::LINE_STRIP, kWhite);
-      ring.id = z > kBallLow ? 1 : 0;
-      ring.scale.x = 0.006;  // [m] of line
-      for (double angle = 0; angle < 6.4; angle += 0.1) {
-        ring.points.push_back(
-            toPoint({home.x() + 0.16 * std::cos(angle), home.y() + 0.16 * std::sin(angle), z}));
-      }
+      for (const double y : {-0.16, 0.16}) bars.points.push_back(toPoint({0, y, z}));
     }
   }
 

@@ -102,7 +102,7 @@ std::vector<geometry_msgs::TransformStamped> toStaticTf(const Simulator& simulat
   for (std::size_t i = 0; i < simulator.scene().bodies.size(); ++i) {
     const SceneBody& body = simulator.scene().bodies[i];
     const BodyFrame& B = simulator.bodyFrame(static_cast<Eigen::Index>(i));
-    add(body.name, comFrame(body.name), B.p_LBcm, B.q_LB);
+    add(body.name, comFrameName(body.name), B.p_LBcm, B.q_LB);
     if (!with_link_frames) continue;
     for (const FixedFrame& frame : body.frames)
       add(body.name, frame.name, frame.X_LF.translation(), Quaterniond(frame.X_LF.linear()));

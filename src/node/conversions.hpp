@@ -44,7 +44,5 @@ nav_msgs::Odometry toOdometry(const Simulator& simulator, Eigen::Index body,
 geometry_msgs::TwistStamped toTwist(const Simulator& simulator, Eigen::Index body,
                                     const ros::Time& stamp);
 
-/// Name of the frame at a body's centre of mass, along its principal axes.
-inline std::string comFrame(const std::string& body) { return body + "/com"; }
 
 }  // namespace rigid_body_sim

@@ -82,8 +82,8 @@ InputRules::InputRules(const Simulator& simulator, const SimTime& time, const No
     X_LB.linear() = B.q_LB.toRotationMatrix();
     X_LB.translation() = B.p_LBcm;
     const Isometry3d X_BL = X_LB.inverse();
-    std::map<std::string, Isometry3d> frames = {{bodies[i].name, X_BL},
-                                                {comFrame(bodies[i].name), Isometry3d::Identity()}};
+    std::map<std::string, Isometry3d> frames = {
+        {bodies[i].name, X_BL}, {comFrameName(bodies[i].name), Isometry3d::Identity()}};
     for (const FixedFrame& frame : bodies[i].frames) frames[frame.name] = X_BL * frame.X_LF;
     frames_.push_back(frames);
   }

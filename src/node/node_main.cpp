@@ -41,6 +41,17 @@ std::string urdfParameter(const ros::NodeHandle& nh, const std::string& name) {
   return text;
 }
 
+/// The world frame may not be one of a body's.
+void requireOwnFrame(const std::string& world_frame, const Scene& scene) {
+  for (const SceneBody& body : scene.bodies) {
+    bool is_taken = world_frame == body.name || world_frame == comFrameName(body.name);
+    for (const FixedFrame& frame : body.frames) is_taken = is_taken || world_frame == frame.name;
+    if (is_taken)
+      throw std::invalid_argument("world_frame: '" + world_frame + "' is a frame of the body '" +
+                                  body.name + "'");
+  }
+}
+
 std::int64_t wallTime() {
   using namespace std::chrono;
   return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
@@ -53,6 +64,7 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   Scene scene = readScene(parameters, {options.scene_folder,
                                        [&](const auto& name) { return urdfParameter(nh, name); }});
   parameters.refuseUnknown();
+  requireOwnFrame(options.world_frame, scene);
   for (const SceneBody& body : scene.bodies) ROS_INFO("%s", summary(body).c_str());
   for (const std::string& warning : scene.warnings) ROS_WARN("%s", warning.c_str());
   ROS_INFO("%s", summary(scene).c_str());
