@@ -31,18 +31,6 @@ std::string rangeText(const Allowed& allowed) {
   return text.str();
 }
 
-/// A decimal number as YAML 1.1 wants it: a dot with a digit before it, a sign in the exponent.
-std::string asYamlNumber(const std::string& text) {
-  const auto e = text.find_first_of("eE");
-  std::string mantissa = text.substr(0, e);
-  const std::size_t first = mantissa.find_first_not_of("+-");
-  if (mantissa[first] == '.') mantissa.insert(first, "0");
-  if (e == std::string::npos) return mantissa;
-  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
-  const bool has_sign = text[e + 1] == '+' || text[e + 1] == '-';
-  return mantissa + "e" + (has_sign ? "" : "+") + text.substr(e + 1);
-}
-
 /// YAML 1.1, which ROS uses, takes 1e-6 and 1.0e6 for strings: it wants a dot and the exponent's
 /// sign.
 std::string hintForNumber(const Value& value) {

@@ -44,5 +44,4 @@ nav_msgs::Odometry toOdometry(const Simulator& simulator, Eigen::Index body,
 geometry_msgs::TwistStamped toTwist(const Simulator& simulator, Eigen::Index body,
                                     const ros::Time& stamp);
 
-
 }  // namespace rigid_body_sim
