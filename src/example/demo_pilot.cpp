@@ -3,8 +3,8 @@
 //   nesc_brick  spun up by an angular impulse, and down again by the opposite one
 //   ball        thrown up again whenever it comes down, by an impulse at a stated time
 //   t_handle    left alone; its stem's tip leaves a trail
-// Everything it does is timed by the stamps of `states`, so it is the same at any real-time factor
-// and waits while the simulation is paused. Only the picture (`demo/*`) follows the wall clock.
+// All of it is timed by the stamps of `states`: the same at any speed at which messages arrive in
+// time, waiting while paused. Only the picture (`demo/*`) follows the wall clock.
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Path.h>
@@ -30,7 +30,8 @@ constexpr double kGravity = 9.80665;  // [m/s^2]
 constexpr double kNever = -1e9;       // [s] long before any stamp
 
 // An impulse is sent this long before it acts: 3 ticks, whatever ROS takes.
-constexpr double kLead = 0.06;  // [s]
+constexpr double kLead = 0.06;   // [s]
+constexpr double kPeriod = 5.0;  // [s] between pushes, of the astrobee and of the brick
 
 // Astrobee, about 10 kg and 0.17 kg m^2: 1.2 rad/s and 2 rad/s of bandwidth, damping ratio 0.8.
 constexpr double kHoldPeriod = 0.05;         // [s] between wrenches
@@ -38,22 +39,19 @@ constexpr double kHoldStiffness = 14.4;      // [N/m]    m w^2
 constexpr double kHoldDamping = 19.2;        // [N s/m]  2 * 0.8 m w
 constexpr double kHoldTurnStiffness = 0.68;  // [N m/rad]
 constexpr double kHoldTurnDamping = 0.54;    // [N m s/rad]
-constexpr double kPushPeriod = 5.0;          // [s] between disturbances
-constexpr double kPush = 2.0;                // [N s]
+constexpr double kPush = 2.0;                // [N s] a disturbance
 
-constexpr double kKickPeriod = 10.0;  // [s] between spin-ups of the brick
-constexpr double kKickLength = 4.0;   // [s] until the opposite impulse
-constexpr double kKick = 0.02;        // [N m s]
+// The brick: spun up and down in turn.
+constexpr double kKick = 0.02;                                     // [N m s]
 const Vector3d kKickAxis = Vector3d(0.3, -0.6, 0.7).normalized();  // in the world
 
-constexpr double kBallMass = 0.6085;    // [kg]
-constexpr double kBallRadius = 0.1217;  // [m]
-constexpr double kBallLow = 0.35;       // [m] height of its centre where it is thrown
-constexpr double kBallHigh = 1.35;      // [m] and up to which it is thrown
+constexpr double kBallMass = 0.6085;                 // [kg]
+constexpr double kBallRadius = 0.1217;               // [m]
+constexpr double kBallLow = 0.35, kBallHigh = 1.35;  // [m] its centre, thrown from and up to
 
 constexpr double kShown = 0.5;         // [s] a push, as an arrow and in words
 constexpr double kTrailShown = 6.8;    // [s] two flips
-constexpr double kTrailGap = 0.02;     // [s] between points: at most 341 of them
+constexpr double kTrailGap = 0.015;    // [s] between points: at most 454 of them
 constexpr double kLabelHeight = 1.77;  // [m]
 const Vector3d kStemTip(0, 0, 0.27);   // [m] in t_handle
 
@@ -132,7 +130,7 @@ class DemoPilot {
   void onStates(const BodyStates& states) {
     const double now = states.header.stamp.toSec();
     if (now < m_.now) m_ = Memory();
-    if (m_.now == kNever) m_.pushed = m_.kicked = now - kPushPeriod + 1.0;  // the first ones soon
+    if (m_.now == kNever) m_.pushed = m_.kicked = now - kPeriod + 1.0;  // the first ones soon
     m_.now = now;
     m_.header = states.header;
     for (std::size_t i = 0; i < states.names.size(); ++i) {
@@ -156,7 +154,7 @@ class DemoPilot {
       msg.wrench = holdWrench(m_.motions.at("astrobee"), m_.homes.at("astrobee"));
       wrench_pub_.publish(msg);
     }
-    if (m_.now >= m_.pushed + kPushPeriod) {
+    if (m_.now >= m_.pushed + kPeriod) {
       m_.pushed = m_.now;
       push("astrobee", "astrobee_nozzle", {-kPush, 0, 0}, Vector3d::Zero(),
            {{0.40, 0, 0}, {0.04, 0, 0}, "pushed off centre"});
@@ -164,7 +162,7 @@ class DemoPilot {
   }
 
   void spinBrick() {
-    if (m_.now < m_.kicked + (m_.spun_up ? kKickLength : kKickPeriod - kKickLength)) return;
+    if (m_.now < m_.kicked + kPeriod) return;
     m_.kicked = m_.now;
     m_.spun_up = !m_.spun_up;
     const Vector3d kick_W = (m_.spun_up ? kKick : -kKick) * kKickAxis;
