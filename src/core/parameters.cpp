@@ -31,21 +31,25 @@ std::string rangeText(const Allowed& allowed) {
   return text.str();
 }
 
-/// YAML 1.1, which ROS uses, takes 1e-6 and 1.0e6 for strings: it wants a dot and the exponent's
-/// sign.
+/// YAML 1.1, which ROS uses, takes 1e-6, 1.0e6 and -.5 for strings: it wants a dot with a digit
+/// before it, and the exponent's sign.
 std::string hintForNumber(const Value& value) {
   const auto* text = std::get_if<std::string>(&value.data);
-  if (!text || text->empty()) return {};
+  if (!text || text->find_first_not_of("+-.0123456789eE") != std::string::npos) return {};
   char* end = nullptr;
   std::strtod(text->c_str(), &end);
-  if (*end != '\0') return {};
+  if (end == text->c_str() || *end != '\0') return {};
   const auto e = text->find_first_of("eE");
-  if (e == std::string::npos) return "; it is a string: leave the quotes out";
-  std::string mantissa = text->substr(0, e);
-  std::string exponent = text->substr(e + 1);
-  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
-  if (exponent.find_first_of("+-") == std::string::npos) exponent.insert(0, "+");
-  return "; to YAML this is a string: write " + mantissa + "e" + exponent;
+  std::string wanted = text->substr(0, e);
+  const std::size_t first = wanted.find_first_not_of("+-");
+  if (wanted[first] == '.') wanted.insert(first, "0");
+  if (e != std::string::npos) {
+    const std::string exponent = text->substr(e + 1);
+    if (wanted.find('.') == std::string::npos) wanted += ".0";
+    wanted += (exponent.find_first_of("+-") == std::string::npos ? "e+" : "e") + exponent;
+  }
+  if (wanted == *text) return "; it is a string: leave the quotes out";
+  return "; to YAML this is a string: write " + wanted;
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {

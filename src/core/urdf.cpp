@@ -259,18 +259,6 @@ class Lumper {
   std::deque<PlacedLink> starts_;
 };
 
-/// A model that is freed link by link: the links' own destructors would recurse down the tree.
-struct ParsedModel {
-  urdf::ModelInterfaceSharedPtr model;
-
-  explicit ParsedModel(urdf::ModelInterfaceSharedPtr parsed) : model(std::move(parsed)) {}
-  ~ParsedModel() {
-    for (auto& link : model->links_) link.second->child_links.clear();
-  }
-  ParsedModel(const ParsedModel&) = delete;
-  ParsedModel& operator=(const ParsedModel&) = delete;
-};
-
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 bool isNameCharacter(char c) {
@@ -283,9 +271,9 @@ UrdfModel readUrdf(const std::string& text, const std::string& source, MovableJo
   const std::string shown_source = oneLine(source, std::string::npos);
   checkUrdf(scanXml(text, shown_source), shown_source);
   UrdfModel result;
-  const ParsedModel parsed(parse(text, shown_source, result.warnings));
-  result.name = oneLine(parsed.model->getName());
-  Lumper(*parsed.model, shown_source, movable, result).run();
+  const urdf::ModelInterfaceSharedPtr model = parse(text, shown_source, result.warnings);
+  result.name = oneLine(model->getName());
+  Lumper(*model, shown_source, movable, result).run();
   return result;
 }
 

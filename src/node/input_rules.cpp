@@ -134,7 +134,9 @@ AppliedWrench InputRules::appliedAt(Eigen::Index body, const std::string& frame_
 Tick InputRules::startTick(const ros::Time& stamp) const {
   if (stamp.isZero()) return simulator_.tick();
   const ros::Time now = time_.at(simulator_.tick());
-  const double age_s = (now - stamp).toSec();
+  // Not as a ros::Duration, which throws for 68 years and more.
+  const double age_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(now.toNSec()) -
+                                                  static_cast<std::int64_t>(stamp.toNSec()));
   std::ostringstream text;
   if (options_.stale_after_s > 0 && age_s > options_.stale_after_s) {
     text << "stamp is " << age_s << " s old, stale_after_s is " << options_.stale_after_s;
@@ -186,8 +188,10 @@ void InputRules::check(Eigen::Index body, const AppliedWrench& applied,
 
   const BodyFrame& B = simulator_.bodyFrame(body);
   const double torque_about_com = torque + applied.p_BcmQ_B.norm() * force;  // at most
-  if (simulator_.scene().bodies[body].is_point_mass && torque_about_com > 0)
-    throw RefusedInput(Refusal::kPointMass, "a point mass takes no torque");
+  // Exactly, as the simulator does: products of tiny numbers are zero.
+  if (simulator_.scene().bodies[body].is_point_mass &&
+      !(applied.wrench.t_Q_F.isZero(0) && applied.p_BcmQ_B.isZero(0)))
+    throw RefusedInput(Refusal::kPointMass, "a point mass takes no torque, and forces only at it");
   const double speed = force * bounds.seconds / B.mass;
   const double spin = torque_about_com * bounds.seconds / B.I_BBcm_B(0);
   if (!(speed <= options_.limits.speed))
@@ -197,8 +201,10 @@ void InputRules::check(Eigen::Index body, const AppliedWrench& applied,
 }
 
 Tick InputRules::heldTicks() const {
-  return static_cast<Tick>(
-      std::ceil(options_.wrench_timeout_s / simulator_.scene().step_s() - 1e-9));
+  if (options_.wrench_timeout_s == 0) return 0;
+  return std::max<Tick>(
+      1,
+      static_cast<Tick>(std::ceil(options_.wrench_timeout_s / simulator_.scene().step_s() - 1e-9)));
 }
 
 WrenchInput InputRules::checked(Eigen::Index body, const AppliedWrench& applied) const {

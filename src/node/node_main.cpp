@@ -41,9 +41,12 @@ std::string urdfParameter(const ros::NodeHandle& nh, const std::string& name) {
   return text;
 }
 
-/// The world frame may not be one of a body's.
-void requireOwnFrame(const std::string& world_frame, const Scene& scene) {
+/// Bodies become topics, and all frames share one tree with the world's.
+void requireGoodNames(const Scene& scene, const std::string& world_frame) {
   for (const SceneBody& body : scene.bodies) {
+    std::string why;
+    if (!ros::names::validate(body.name, why))
+      throw std::invalid_argument("body '" + body.name + "' cannot be a topic: " + why);
     bool is_taken = world_frame == body.name || world_frame == comFrameName(body.name);
     for (const FixedFrame& frame : body.frames) is_taken = is_taken || world_frame == frame.name;
     if (is_taken)
@@ -64,7 +67,7 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   Scene scene = readScene(parameters, {options.scene_folder,
                                        [&](const auto& name) { return urdfParameter(nh, name); }});
   parameters.refuseUnknown();
-  requireOwnFrame(options.world_frame, scene);
+  requireGoodNames(scene, options.world_frame);
   for (const SceneBody& body : scene.bodies) ROS_INFO("%s", summary(body).c_str());
   for (const std::string& warning : scene.warnings) ROS_WARN("%s", warning.c_str());
   ROS_INFO("%s", summary(scene).c_str());

@@ -22,6 +22,7 @@ Limits readLimits(const Parameters& parameters) {
 
 std::string folderOf(const std::string& path) {
   const auto slash = path.rfind('/');
+  if (slash == 0) return "/";
   return slash == std::string::npos ? std::string() : path.substr(0, slash);
 }
 

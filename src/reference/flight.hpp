@@ -35,16 +35,18 @@ inline Push nothing(Real, const State&) { return {}; }
 /// Where a flight ends, and how far that is to be trusted.
 struct Flight {
   BodyState end;
-  double doubt;  ///< largest difference of any component to the same flight in half as many steps,
-                 ///< relative to the size of its vector or to one, whichever is larger
+  double doubt;  ///< the largest difference of any component to the same flight in half as many
+                 ///< steps, relative to the size of its vector or to one, whichever is larger
 };
 
 /// The body after `time_s` [s] under a law, from time 0: the equations of motion themselves,
-/// x' = P/m, q' = w q/2, P' = f, L' = t, w = R I^-1 R^T L (founding text, section 7), by the
-/// extrapolated midpoint rule of order 16 in long double (Gragg 1965; Hairer, Norsett and Wanner,
-/// Solving Ordinary Differential Equations I, II.9). It shares no formula with the integrators.
-/// The number of steps doubles until the end no longer changes.
-/// @throws std::runtime_error if it never settles within 1e-15.
+/// x' = P/m, q' = w q/2, P' = f, L' = t (founding text, section 7), the last one in body axes, by
+/// the extrapolated midpoint rule of order 16 in long double (Gragg 1965; Hairer, Norsett and
+/// Wanner, Solving Ordinary Differential Equations I, II.9). It shares no formula with the
+/// integrators. The number of steps doubles until the end changes by less than 1e-12, which leaves
+/// 1e-12 / 2^16 of truncation, and rounding of some 1e-16 times how much the motion spreads small
+/// differences.
+/// @throws std::runtime_error if it never settles.
 Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
            double time_s);
 
