@@ -10,6 +10,9 @@ struct Wrench {
   Vector3d t_Q_F = Vector3d::Zero();  ///< about Q [N m], or [N m s] for an impulse
 };
 
+/// True if it does nothing at all.
+inline bool isZero(const Wrench& wrench) { return wrench.f_F.isZero(0) && wrench.t_Q_F.isZero(0); }
+
 /// The same action about point R, where p_RQ_F [m] leads from R to Q: t_R = t_Q + p_RQ x f.
 inline Wrench aboutPoint(const Wrench& about_Q, const Vector3d& p_RQ_F) {
   return {about_Q.f_F, about_Q.t_Q_F + p_RQ_F.cross(about_Q.f_F)};

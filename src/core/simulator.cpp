@@ -126,6 +126,7 @@ void Simulator::latchInputs() {
            std::tie(b.body, b.origin.source, b.origin.sequence, b.origin.entry);
   });
   for (const ImpulseInput& input : impulses) {
+    if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
     BodyState body = bodies_.state(input.body);
     const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
     body.P_WB += impulse.f_F;

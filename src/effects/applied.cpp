@@ -6,8 +6,6 @@
 namespace rigid_body_sim {
 namespace {
 
-bool isZero(const Wrench& wrench) { return wrench.f_F.isZero(0) && wrench.t_Q_F.isZero(0); }
-
 auto orderOf(const WrenchInput& input) {
   return std::tie(input.body, input.origin.source, input.origin.sequence, input.origin.entry);
 }

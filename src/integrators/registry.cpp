@@ -7,7 +7,8 @@ namespace rigid_body_sim {
 const std::vector<IntegratorRow>& integrators() {
   static const std::vector<IntegratorRow> rows = {
       {"explicit_euler_velocity", 1, false, false, 1,
-       "explicit Euler on (v, w), the founding text's first method; energy grows without bound",
+       "explicit Euler on (v, w), the founding text's first method; a tumbling body loses energy "
+       "until it spins about one axis",
        makeExplicitEulerVelocity},
       {"semi_implicit_velocity", 1, false, false, 1,
        "semi-implicit Euler on (v, w), as most engines step; unstable with the gyroscopic term",

@@ -7,6 +7,7 @@
 #include <ros/xmlrpc_manager.h>
 
 #include <chrono>
+#include <set>
 
 namespace rigid_body_sim {
 namespace {
@@ -33,20 +34,37 @@ std::string masterRun() {
                                                              : "";
 }
 
-/// Pairs of topic and type from the node's own slave API: `getPublications` or `getSubscriptions`.
-/// roscpp keeps the lists private, but answers this question to anybody.
-XmlRpc::XmlRpcValue ownTopics(const char* method, const std::string& uri) {
+/// One question to the node's own slave API: roscpp keeps its lists private, but answers to
+/// anybody. An empty list if there is no answer.
+XmlRpc::XmlRpcValue askSelf(const char* method, XmlRpc::XmlRpcValue request = {}) {
   std::string host;
   std::uint32_t port = 0;
-  ros::network::splitURI(uri, host, port);
+  ros::network::splitURI(ros::XMLRPCManager::instance()->getServerURI(), host, port);
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue request;
   request[0] = ros::this_node::getName();
   XmlRpc::XmlRpcValue response;  // code, message, list
   XmlRpc::XmlRpcValue none;
   none.setSize(0);
   if (!client.execute(method, request, response) || response.size() != 3) return none;
   return response[2];
+}
+
+/// Connects to publishers that the new master knew before this node, as it will not tell of them
+/// again. Those that are connected stay so, whether it knows them or not.
+void connect(const std::string& topic, XmlRpc::XmlRpcValue& publishers) {
+  std::set<std::string> uris;
+  for (int i = 0; i < publishers.size(); ++i) uris.insert(publishers[i]);
+  XmlRpc::XmlRpcValue links = askSelf("getBusInfo");  // id, peer, direction, transport, topic, ...
+  for (int i = 0; i < links.size(); ++i) {
+    const bool is_input = static_cast<std::string>(links[i][2]) == "i";
+    if (is_input && static_cast<std::string>(links[i][4]) == topic) uris.insert(links[i][1]);
+  }
+  if (uris.empty()) return;
+  XmlRpc::XmlRpcValue request;
+  request[1] = topic;
+  int count = 0;
+  for (const std::string& uri : uris) request[2][count++] = uri;
+  askSelf("publisherUpdate", request);
 }
 
 }  // namespace
@@ -64,16 +82,16 @@ MasterWatch::~MasterWatch() {
 }
 
 void MasterWatch::run() {
-  std::string known_run;
+  std::string known_run = masterRun();  // empty if it died meanwhile; another will come then
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stop_.wait_for(lock, kPeriod, [this] { return stopping_; })) {
     lock.unlock();
     const std::string run = masterRun();
-    if (!known_run.empty() && !run.empty() && run != known_run) {
+    if (!run.empty() && run != known_run) {
       ROS_WARN("the master was restarted: registering again");
       registerAll();
+      known_run = run;
     }
-    if (!run.empty()) known_run = run;
     lock.lock();
   }
 }
@@ -81,13 +99,16 @@ void MasterWatch::run() {
 void MasterWatch::registerAll() {
   const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   XmlRpc::XmlRpcValue ignored;
-  XmlRpc::XmlRpcValue topics = ownTopics("getPublications", uri);
+  XmlRpc::XmlRpcValue topics = askSelf("getPublications");  // topic, type
   for (int i = 0; i < topics.size(); ++i)
     ask("registerPublisher", {topics[i][0], topics[i][1], uri}, ignored);
 
-  XmlRpc::XmlRpcValue subscriptions = ownTopics("getSubscriptions", uri);
-  for (int i = 0; i < subscriptions.size(); ++i)
-    ask("registerSubscriber", {subscriptions[i][0], subscriptions[i][1], uri}, ignored);
+  XmlRpc::XmlRpcValue subscriptions = askSelf("getSubscriptions");
+  for (int i = 0; i < subscriptions.size(); ++i) {
+    XmlRpc::XmlRpcValue publishers;
+    if (ask("registerSubscriber", {subscriptions[i][0], subscriptions[i][1], uri}, publishers))
+      connect(subscriptions[i][0], publishers);
+  }
 
   const std::string service_uri = "rosrpc://" + ros::network::getHost() + ":" +
                                   std::to_string(ros::ConnectionManager::instance()->getTCPPort());

@@ -2,6 +2,8 @@
 #include <ros/ros.h>
 
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 
 #include "node/conversions.hpp"
@@ -73,9 +75,11 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   ROS_INFO("%s", summary(scene).c_str());
 
   SimNode node(nh, private_nh, queue, std::move(scene), options);
-  const MasterWatch watch({private_nh.resolveName(names::kPause),
-                           private_nh.resolveName(names::kStep),
-                           private_nh.resolveName(names::kReset)});
+  std::vector<std::string> services;
+  for (const char* name :
+       {names::kPause, names::kStep, names::kReset, "get_loggers", "set_logger_level"})
+    services.push_back(private_nh.resolveName(name));  // the last two are roscpp's own
+  const MasterWatch watch(services);
   node.run();
 }
 
@@ -83,6 +87,8 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
 }  // namespace rigid_body_sim
 
 int main(int argc, char** argv) {
+  // ROS takes SIGINT over when it starts, which is after the wait for a master.
+  std::signal(SIGINT, [](int) { std::_Exit(0); });
   ros::init(argc, argv, "rigid_body_sim");
   if (!rigid_body_sim::waitForMaster()) return 0;
   ros::CallbackQueue queue;

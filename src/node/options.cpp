@@ -26,6 +26,17 @@ std::string folderOf(const std::string& path) {
   return slash == std::string::npos ? std::string() : path.substr(0, slash);
 }
 
+/// 0 is as fast as possible; the least above it keeps a tick of 1 s well within integer
+/// nanoseconds.
+double readRealTimeFactor(const Parameters& parameters) {
+  const double least = 1e-6;
+  const double factor = parameters.number("real_time_factor", {0, 1e6, "times real time"}, 1);
+  if (factor > 0 && factor < least)
+    parameters.refuse("real_time_factor", toText({factor}) + " is neither 0 nor from " +
+                                              toText({least}) + " [times real time]");
+  return factor;
+}
+
 /// Simulated time starts at 1 s, as tf2 reads the stamp 0 as "latest"; without /clock it starts at
 /// the wall's time, as other nodes stamp their messages with that.
 std::int64_t readStartTime(const Parameters& parameters, bool publish_clock,
@@ -55,7 +66,7 @@ NodeOptions readNodeOptions(const Parameters& parameters, bool use_sim_time,
   }
   options.publish_link_frames = parameters.boolean("publish_link_frames", true);
   options.paused = parameters.boolean("paused", false);
-  options.real_time_factor = parameters.number("real_time_factor", {0, 1e6, "times real time"}, 1);
+  options.real_time_factor = readRealTimeFactor(parameters);
   options.wrench_timeout_s = parameters.number("wrench_timeout_s", {0, 1e9, "s"}, 1);
   options.stale_after_s = parameters.number("stale_after_s", {0, 1e9, "s"}, 1);
   options.start_time_ns = readStartTime(parameters, options.publish_clock, wall_time_ns);

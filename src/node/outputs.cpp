@@ -48,6 +48,7 @@ void Outputs::publish() {
     if (odoms_[i].getNumSubscribers() > 0)
       odoms_[i].publish(toOdometry(simulator_, i, options_.world_frame, stamp));
   }
+  gate_.pass();
 }
 
 }  // namespace rigid_body_sim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "node/options.hpp"
+#include "node/send_gate.hpp"
 #include "node/sim_time.hpp"
 #include "rigid_body_sim/simulator.hpp"
 
@@ -34,6 +35,7 @@ class Outputs {
   ros::Publisher import_report_;
   std::vector<ros::Publisher> twists_;  // of each body
   std::vector<ros::Publisher> odoms_;
+  SendGate gate_;
 };
 
 }  // namespace rigid_body_sim

@@ -1,5 +1,6 @@
 #include "node/sim_node.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "node/conversions.hpp"
@@ -9,7 +10,7 @@ namespace rigid_body_sim {
 namespace {
 
 constexpr std::uint32_t kMaxSteps = 1'000'000;
-constexpr double kIdle_s = 0.1;  // how often a paused loop looks whether it shall end
+constexpr double kIdle_s = 0.1;  // how often a waiting loop looks whether it shall end
 
 std::int64_t steadyNow() { return static_cast<std::int64_t>(ros::SteadyTime::now().toNSec()); }
 
@@ -77,7 +78,7 @@ void SimNode::publishTick() {
 void SimNode::waitUntilDue() {
   do {
     const double wait_s = 1e-9 * static_cast<double>(pace_.untilDue(steadyNow()));
-    queue_.callAvailable(ros::WallDuration(std::max(0.0, wait_s)));
+    queue_.callAvailable(ros::WallDuration(std::clamp(wait_s, 0.0, kIdle_s)));
   } while (ros::ok() && !is_published_ && pace_.untilDue(steadyNow()) > 0);
 }
 
