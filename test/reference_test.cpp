@@ -80,6 +80,24 @@ TEST(Reference, FreeFlightKeepsEnergyAndMomentum) {
   }
 }
 
+TEST(Reference, FlightObeysEulersEquations) {
+  // t = I w' + w x I w, with w' by central differences extrapolated once: h^4 and kEps / h.
+  const reference::Case& stone = reference::caseNamed("tumbling_stone");
+  const BodyState start = startOf(stone, genericAttitude());
+  const Vector3d& I = stone.I_BBcm_B;
+  const Vector3d t_B(0.4, 0.9, -1.6);
+  const auto law = [&](reference::Real, const reference::State& body) {
+    return reference::Push{reference::Vector3r::Zero(), body.q_WB * t_B.cast<reference::Real>()};
+  };
+  const auto rate = [&](double time_s) {
+    return angularVelocityInBody(fly(start, stone.mass, I, law, time_s).end, I);
+  };
+  const auto slope = [&](double h) { return Vector3d((rate(h) - rate(-h)) / (2 * h)); };
+  const double h = 1e-3;
+  const Vector3d w = stone.w_WB_B, w_dot = (4 * slope(h / 2) - slope(h)) / 3;
+  EXPECT_LE(difference(I.cwiseProduct(w_dot) + w.cross(I.cwiseProduct(w)), t_B), 16 * kEps / h);
+}
+
 TEST(Reference, FlightOfTheBrickIsNasas) {
   const reference::Case& brick = reference::caseNamed("nesc_brick");
   ASSERT_TRUE(brick.published);
