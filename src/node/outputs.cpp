@@ -10,43 +10,57 @@ namespace rigid_body_sim {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100;  // two seconds at 50 Hz
-constexpr bool kLatched = true;
+
+rosgraph_msgs::Clock toClock(const ros::Time& stamp) {
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp;
+  return clock;
+}
 
 }  // namespace
 
-Outputs::Outputs(ros::NodeHandle& nh, const Simulator& simulator, const SimTime& time,
+Outputs::Outputs(ros::NodeHandle nh, const Simulator& simulator, const SimTime& time,
                  const NodeOptions& options)
-    : simulator_(simulator), time_(time), options_(options) {
+    : nh_(nh), simulator_(simulator), time_(time), options_(options) {
+  nh_.setCallbackQueue(&connections_);
   if (options_.publish_clock)
-    clock_ = nh.advertise<rosgraph_msgs::Clock>(names::kClock, kQueueSize, kLatched);
-  tf_ = nh.advertise<tf2_msgs::TFMessage>(names::kTf, kQueueSize, kLatched);
-  states_ = nh.advertise<BodyStates>(names::kStates, kQueueSize, kLatched);
-  for (const SceneBody& body : simulator.scene().bodies) {
-    twists_.push_back(
-        nh.advertise<geometry_msgs::TwistStamped>(body.name + "/" + names::kTwist, kQueueSize));
-    odoms_.push_back(nh.advertise<nav_msgs::Odometry>(body.name + "/" + names::kOdom, kQueueSize));
+    clock_ = advertise<rosgraph_msgs::Clock>(names::kClock, [this] { return toClock(stamp()); });
+  tf_ = advertise<tf2_msgs::TFMessage>(
+      names::kTf, [this] { return toTf(simulator_, options_.world_frame, stamp()); });
+  states_ = advertise<BodyStates>(
+      names::kStates, [this] { return toStates(simulator_, options_.world_frame, stamp()); });
+  for (Eigen::Index i = 0; i < simulator.bodies().count(); ++i) {
+    const std::string body = simulator.scene().bodies[i].name + "/";
+    twists_.push_back(advertise<geometry_msgs::TwistStamped>(
+        body + names::kTwist, [this, i] { return toTwist(simulator_, i, stamp()); }));
+    odoms_.push_back(advertise<nav_msgs::Odometry>(body + names::kOdom, [this, i] {
+      return toOdometry(simulator_, i, options_.world_frame, stamp());
+    }));
   }
-  import_report_ = nh.advertise<std_msgs::String>(names::kImportReport, 1, kLatched);
+  const bool is_latched = true;
+  import_report_ = nh_.advertise<std_msgs::String>(names::kImportReport, 1, is_latched);
   std_msgs::String report;
   report.data = simulator.scene().import_report;
   import_report_.publish(report);
-  static_broadcaster_.sendTransform(
-      toStaticTf(simulator, options.publish_link_frames, time.at(simulator.tick())));
+  static_broadcaster_.sendTransform(toStaticTf(simulator, options.publish_link_frames, stamp()));
+}
+
+template <class Message>
+ros::Publisher Outputs::advertise(const std::string& topic, std::function<Message()> make) {
+  return nh_.advertise<Message>(topic, kQueueSize,
+                                [this, make](const ros::SingleSubscriberPublisher& subscriber) {
+                                  if (is_paused_) subscriber.publish(make());
+                                });
 }
 
 void Outputs::publish() {
-  const ros::Time stamp = time_.at(simulator_.tick());
-  if (options_.publish_clock) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = stamp;
-    clock_.publish(clock);
-  }
-  tf_.publish(toTf(simulator_, options_.world_frame, stamp));
-  states_.publish(toStates(simulator_, options_.world_frame, stamp));
+  if (options_.publish_clock) clock_.publish(toClock(stamp()));
+  tf_.publish(toTf(simulator_, options_.world_frame, stamp()));
+  states_.publish(toStates(simulator_, options_.world_frame, stamp()));
   for (Eigen::Index i = 0; i < simulator_.bodies().count(); ++i) {
-    if (twists_[i].getNumSubscribers() > 0) twists_[i].publish(toTwist(simulator_, i, stamp));
+    if (twists_[i].getNumSubscribers() > 0) twists_[i].publish(toTwist(simulator_, i, stamp()));
     if (odoms_[i].getNumSubscribers() > 0)
-      odoms_[i].publish(toOdometry(simulator_, i, options_.world_frame, stamp));
+      odoms_[i].publish(toOdometry(simulator_, i, options_.world_frame, stamp()));
   }
   gate_.pass();
 }

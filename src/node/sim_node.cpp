@@ -39,11 +39,12 @@ SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::Callback
 }
 
 void SimNode::run() {
-  publishTick();
+  setPaused(paused_);
   pace_.restart(steadyNow());
   while (ros::ok()) {
     if (paused_) {
       queue_.callAvailable(ros::WallDuration(kIdle_s));
+      outputs_.serveNewSubscribers();
       if (!paused_) pace_.restart(steadyNow());
       continue;
     }
@@ -55,6 +56,7 @@ void SimNode::run() {
 }
 
 void SimNode::runTick() {
+  outputs_.serveNewSubscribers();
   simulator_.step();
   is_published_ = false;
   inputs_.reportExpired();
@@ -82,9 +84,16 @@ void SimNode::waitUntilDue() {
   } while (ros::ok() && !is_published_ && pace_.untilDue(steadyNow()) > 0);
 }
 
+/// Publishes the tick that is on its way, so that nothing moves after a pause.
+void SimNode::setPaused(bool is_paused) {
+  outputs_.serveNewSubscribers();
+  publishTick();
+  paused_ = is_paused;
+  outputs_.setPaused(is_paused);
+}
+
 bool SimNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  publishTick();  // the tick that is on its way, so that nothing moves after the answer
-  paused_ = request.data;
+  setPaused(request.data);
   response.success = true;
   response.message = paused_ ? "paused" : "running";
   return true;
@@ -108,6 +117,7 @@ bool SimNode::step(Step::Request& request, Step::Response& response) {
 
 bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   publishTick();
+  outputs_.serveNewSubscribers();
   simulator_.reset();
   frozen_told_ = 0;
   is_published_ = false;

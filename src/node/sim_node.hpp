@@ -32,6 +32,7 @@ class SimNode {
   void runTick();
   void publishTick();
   void waitUntilDue();
+  void setPaused(bool is_paused);
 
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool step(Step::Request& request, Step::Response& response);
