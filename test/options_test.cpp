@@ -122,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Table, BadNodeOptions, testing::Values(
     Bad{"real_time_factor: .nan", {"real_time_factor", "nan", "a number", "times real time"}},
     Bad{"real_time_factor: .inf", {"real_time_factor", "inf", "a number", "times real time"}},
     Bad{"real_time_factor: 1.0e+7", {"real_time_factor", "10000000", "0 to 1000000"}},
+    Bad{"real_time_factor: 1.0e-300", {"real_time_factor", "1e-300", "0", "1e-06", "times real time"}},
     Bad{"real_time_factor: '1'", {"real_time_factor", "'1'", "string"}},
     Bad{"real_time_factor: true", {"real_time_factor", "true", "a number"}},
     Bad{"real_time_factor: 1e3", {"real_time_factor", "'1e3'", "write 1.0e+3"}},

@@ -62,7 +62,7 @@ TEST(Pace, LateByOneToFiveTicksCatchesUpWithoutWaiting) {
     loop.tick(0);
     EXPECT_EQ(loop.waited_ns, kPeriod / 2);
     EXPECT_EQ(loop.now_ns, start_ns + loop.ticks * kPeriod);
-    EXPECT_EQ(loop.pace.rebases(), late < Pace::kCatchUpTicks ? 0u : 0u);
+    EXPECT_EQ(loop.pace.rebases(), 0u);
   }
 }
 
@@ -109,8 +109,6 @@ TEST(Pace, RunsSixtySecondsWithoutDrift) {
       const double late_ns = sampler.between(0, 2e6);
       loop.tick(static_cast<std::int64_t>(1.5 * busy * busy * static_cast<double>(period_ns)),
                 static_cast<std::int64_t>(late_ns));
-      ASSERT_NEAR(static_cast<double>(loop.ticks),
-                  static_cast<double>((loop.now_ns - start_ns) / period_ns), 1 + 2e6 / 6e6 + 1.5);
     }
     EXPECT_NEAR(static_cast<double>(loop.ticks), static_cast<double>(60 * kSecond / period_ns), 1);
     EXPECT_EQ(loop.pace.rebases(), 0u);

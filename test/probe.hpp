@@ -62,10 +62,10 @@ inline Solid probe() {
   body.mass = m_A + m_T;
   body.p_LBcm = X_LA.translation() + m_T / body.mass * d;
   // Two masses about their common centre of mass: their tensors, and the reduced mass at d.
-  body.I_BBcm_L = X_LA.linear() * I_A * X_LA.linear().transpose() +
-                  X_LT.linear() * I_T * X_LT.linear().transpose() +
-                  m_A * m_T / body.mass *
-                      (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
+  body.I_BBcm_L =
+      X_LA.linear() * I_A * X_LA.linear().transpose() +
+      X_LT.linear() * I_T * X_LT.linear().transpose() +
+      m_A * m_T / body.mass * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
   body.X_WL.setIdentity();
   body.X_WL.linear() = Quaterniond(0.5291502622129181, -0.48, 0.6, 0.36).toRotationMatrix();
   body.X_WL.translation() << 1.7, -0.9, 2.3;

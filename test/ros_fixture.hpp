@@ -56,20 +56,76 @@ struct Status {
   std::uint64_t count(const std::string& key) const { return std::stoull(values.at(key)); }
 };
 
-/// A simulator node, as its users see it.
-class Sim {
+/// The XML-RPC server that roscpp gives to every node: what it is connected to.
+class NodeApi {
  public:
-  explicit Sim(const std::string& node = "/rigid_body_sim") : node_(node) {
-    step_ = service<Step>("step");
-    pause_ = service<std_srvs::SetBool>("pause");
-    reset_ = service<std_srvs::Trigger>("reset");
+  explicit NodeApi(const std::string& node) : node_(node) {
     XmlRpc::XmlRpcValue request, response, uri;
     request[0] = ros::this_node::getName();
     request[1] = node_;
-    if (!ros::master::execute("lookupNode", request, response, uri, false))
-      throw std::runtime_error("no node " + node_);
+    need("node " + node,
+         [&] { return ros::master::execute("lookupNode", request, response, uri, false); });
     ros::network::splitURI(uri, host_, port_);
   }
+
+  /// Messages that the node has taken off its connection to the one publisher of `topic`; roscpp
+  /// tells of one. They are in its callback queue by the time that it looks at a service call made
+  /// after this; without asking, a call may overtake a message, as they come by two connections.
+  int received(const std::string& topic) { return messages(1, topic, 2); }
+
+  /// Messages that the node has handed to the network for its one subscriber to `topic`.
+  int sent(const std::string& topic) { return messages(0, topic, 3); }
+
+  /// Whether it sends `topic` to the node `peer`.
+  bool sends(const std::string& topic, const std::string& peer) {
+    XmlRpc::XmlRpcValue all = ask("getBusInfo")[2];  // id, peer, direction, transport, topic, ...
+    for (int i = 0; i < all.size(); ++i)
+      if (all[i][2] == XmlRpc::XmlRpcValue("o") && all[i][4] == XmlRpc::XmlRpcValue(topic) &&
+          all[i][1] == XmlRpc::XmlRpcValue(peer))
+        return true;
+    return false;
+  }
+
+  bool sendsHere(const std::string& topic) { return sends(topic, ros::this_node::getName()); }
+
+  int pid() { return ask("getPid")[2]; }
+
+ private:
+  XmlRpc::XmlRpcValue ask(const char* method) {
+    XmlRpc::XmlRpcClient client(host_.c_str(), static_cast<int>(port_), "/");
+    XmlRpc::XmlRpcValue request, response;
+    request[0] = ros::this_node::getName();
+    if (!client.execute(method, request, response) || client.isFault())
+      throw std::runtime_error(node_ + " does not answer");
+    return response;
+  }
+
+  /// Published topics are list 0, subscribed ones list 1.
+  int messages(int list, const std::string& topic, int column) {
+    XmlRpc::XmlRpcValue statistics = ask("getBusStats");  // roscpp leaves out code and message here
+    XmlRpc::XmlRpcValue& topics = statistics[list];
+    for (int i = 0; i < topics.size(); ++i) {
+      if (static_cast<std::string>(topics[i][0]) != topic) continue;
+      XmlRpc::XmlRpcValue& links = topics[i][1];
+      return links.size() == 0 ? 0 : static_cast<int>(links[0][column]);
+    }
+    return 0;
+  }
+
+  std::string node_;
+  std::string host_;
+  std::uint32_t port_ = 0;
+};
+
+/// A simulator node, as its users see it.
+class Sim {
+ public:
+  explicit Sim(const std::string& node = "/rigid_body_sim")
+      : node_(node),
+        step_(service<Step>("step")),
+        pause_(service<std_srvs::SetBool>("pause")),
+        reset_(service<std_srvs::Trigger>("reset")),
+        api(node) {}
 
   const std::string& node() const { return node_; }
   ros::NodeHandle& nodeHandle() { return nh_; }
@@ -100,31 +156,6 @@ class Sim {
     std_srvs::Trigger call;
     if (!reset_.call(call) || !call.response.success) throw std::runtime_error("~reset failed");
   }
-
-  /// Messages that the node has taken off its connections to `topic`. They are in its callback
-  /// queue by the time that it looks at a service call made after this; without asking, a call may
-  /// overtake a message, as they come by different connections.
-  int received(const std::string& topic) {
-    XmlRpc::XmlRpcValue statistics = ask("getBusStats");  // roscpp leaves out code and message here
-    XmlRpc::XmlRpcValue& subscriptions = statistics[1];
-    int sum = 0;
-    for (int i = 0; i < subscriptions.size(); ++i) {
-      if (static_cast<std::string>(subscriptions[i][0]) != topic) continue;
-      XmlRpc::XmlRpcValue& links = subscriptions[i][1];
-      for (int k = 0; k < links.size(); ++k) sum += static_cast<int>(links[k][2]);
-    }
-    return sum;
-  }
-
-  /// How many connections the node has by which it gets `topic`.
-  int publishers(const std::string& topic) { return links("i", topic); }
-
-  /// How many connections it has by which it sends `topic` to this process.
-  int linksToHere(const std::string& topic) {
-    return links("o", topic, ros::this_node::getName());
-  }
-
-  int pid() { return ask("getPid")[2]; }
 
   /// Waits for a status that fulfils `wanted`; the latest one if none does.
   Status diagnostics(const std::function<bool(const Status&)>& wanted, double timeout_s = 5) {
@@ -161,49 +192,30 @@ class Sim {
     return false;
   }
 
-  /// One question to the node's own XML-RPC server, which roscpp gives to every node.
-  XmlRpc::XmlRpcValue ask(const char* method) {
-    XmlRpc::XmlRpcClient client(host_.c_str(), static_cast<int>(port_), "/");
-    XmlRpc::XmlRpcValue request, response;
-    request[0] = ros::this_node::getName();
-    if (!client.execute(method, request, response) || client.isFault())
-      throw std::runtime_error(node_ + " does not answer");
-    return response;
-  }
-
-  int links(const std::string& direction, const std::string& topic, const std::string& peer = "") {
-    XmlRpc::XmlRpcValue all = ask("getBusInfo")[2];  // id, peer, direction, transport, topic, ...
-    int count = 0;
-    for (int i = 0; i < all.size(); ++i)
-      count += static_cast<std::string>(all[i][2]) == direction &&
-               static_cast<std::string>(all[i][4]) == topic &&
-               (peer.empty() || static_cast<std::string>(all[i][1]) == peer);
-    return count;
-  }
-
   std::string node_;
   ros::NodeHandle nh_;
   ros::ServiceClient step_, pause_, reset_;
-  std::string host_;
-  std::uint32_t port_ = 0;
+
+ public:
+  NodeApi api;
 };
 
-/// A connected publisher to the node. After send() the node has the message.
+/// A publisher to the node. After send() the node has the message.
 template <class Message>
 class Input {
  public:
   Input(Sim& sim, const std::string& topic)
-      : sim_(sim), publisher_(sim.nodeHandle().advertise<Message>(topic, 20'000)) {
-    need("a connection to " + topic, [&] { return publisher_.getNumSubscribers() > 0; });
-  }
+      : sim_(sim), publisher_(sim.nodeHandle().advertise<Message>(topic, 20'000)) {}
 
   void send(const Message& message) { send(std::vector<Message>{message}); }
 
   void send(const std::vector<Message>& messages) {
-    const int before = sim_.received(publisher_.getTopic());
+    need("a connection to " + publisher_.getTopic(),
+         [&] { return publisher_.getNumSubscribers() > 0; });
+    const int before = sim_.api.received(publisher_.getTopic());
     for (const Message& message : messages) publisher_.publish(message);
     need("the node to receive " + publisher_.getTopic(), [&] {
-      return sim_.received(publisher_.getTopic()) >= before + static_cast<int>(messages.size());
+      return sim_.api.received(publisher_.getTopic()) >= before + static_cast<int>(messages.size());
     });
   }
 
@@ -219,14 +231,16 @@ template <class Message>
 class Recording {
  public:
   Recording(Sim& sim, const std::string& topic)
-      : sim_(sim), topic_(topic), links_before_(sim.linksToHere(topic)) {
+      : sim_(sim), topic_(topic), is_shared_(sim.api.sendsHere(topic)) {
     // Named with its type: of a bare lambda roscpp would make a callback that knows no publisher.
     const boost::function<void(const ros::MessageEvent<const Message>&)> take =
         [this](const ros::MessageEvent<const Message>& event) {
-          if (event.getPublisherName() == sim_.node()) messages.push_back(*event.getMessage());
+          if (event.getPublisherName() != sim_.node()) return;
+          messages.push_back(*event.getMessage());
+          if (on_message) on_message();
         };
     subscriber_ = sim.nodeHandle().subscribe<Message>(topic, 20'000, take);
-    need("a connection to " + topic, [&] { return sim.linksToHere(topic) > 0; });
+    need("a connection to " + topic, [&] { return sim.api.sendsHere(topic); });
   }
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -235,7 +249,7 @@ class Recording {
   /// connection for its own.
   ~Recording() {
     subscriber_.shutdown();
-    waitFor([&] { return sim_.linksToHere(topic_) <= links_before_; });
+    if (!is_shared_) waitFor([&] { return !sim_.api.sendsHere(topic_); });
   }
 
   /// Waits until there are `count` messages.
@@ -245,11 +259,12 @@ class Recording {
   }
 
   std::vector<Message> messages;
+  std::function<void()> on_message;
 
  private:
   Sim& sim_;
   std::string topic_;
-  int links_before_;
+  bool is_shared_;  // with another subscriber in this process
   ros::Subscriber subscriber_;
 };
 
@@ -258,7 +273,7 @@ class NodeTest : public testing::Test {
  protected:
   void SetUp() override {
     // roscpp listens to /clock by itself; a recording of it shares that connection.
-    need("/clock", [this] { return sim.linksToHere("/clock") > 0; });
+    need("/clock", [this] { return sim.api.sendsHere("/clock"); });
     sim.pause();
     sim.reset();
   }
