@@ -29,8 +29,10 @@ using visualization_msgs::Marker;
 constexpr double kGravity = 9.80665;  // [m/s^2]
 constexpr double kNever = -1e9;       // [s] long before any stamp
 
-// An impulse is sent this long before it acts: 3 ticks, whatever ROS takes.
+// An impulse is sent this long before it acts: 3 ticks, whatever ROS takes. Where that is not
+// enough the lead doubles.
 constexpr double kLead = 0.06;   // [s]
+constexpr double kMaxLead = 8;   // [s] the simulator takes stamps up to 10 s ahead
 constexpr double kPeriod = 5.0;  // [s] between pushes, of the astrobee and of the brick
 
 // Astrobee, about 10 kg and 0.17 kg m^2: 1.2 rad/s and 2 rad/s of bandwidth, damping ratio 0.8.
@@ -123,6 +125,7 @@ class DemoPilot {
     std::map<std::string, Motion> motions, homes;
     std::map<std::string, Arrow> arrows;
     double held = kNever, pushed = kNever, kicked = kNever, thrown = kNever;  // [s] when last
+    double lead = kLead;                                                      // [s]
     bool spun_up = false, has_risen = true, is_too_late = false;
     nav_msgs::Path trail;
   };
@@ -175,33 +178,39 @@ class DemoPilot {
   void juggleBall() {
     const Motion& ball = m_.motions.at("ball");
     const double v_now = (ball.q_WL * ball.v_WL_L).z();
-    const double v = v_now - kGravity * kLead;
-    const double z = ball.p_WL.z() + v_now * kLead - 0.5 * kGravity * kLead * kLead;
+    const double v = v_now - kGravity * m_.lead;
+    const double z = ball.p_WL.z() + v_now * m_.lead - 0.5 * kGravity * m_.lead * m_.lead;
     m_.has_risen |= v_now > 0;
-    if (v > 0 || z > kBallLow || m_.now < m_.thrown + 2 * kLead || m_.is_too_late) return;
-    // As fast as possible can be faster than messages travel: then nothing can be flown from here.
-    m_.is_too_late = !m_.has_risen;
-    if (m_.is_too_late) ROS_WARN("the last throw came too late: hands off");
-    if (m_.is_too_late) return;
+    if (v > 0 || z > kBallLow || m_.now < m_.thrown + 2 * m_.lead || m_.is_too_late) return;
+    if (!m_.has_risen) return throwEarlier();
     m_.has_risen = false;
     m_.thrown = m_.now;
     const double impulse = kBallMass * (std::sqrt(2 * kGravity * (kBallHigh - z)) - v);
     const Vector3d below(ball.p_WL.x(), ball.p_WL.y(), kBallLow - kBallRadius);
     push("ball", m_.header.frame_id, {0, 0, impulse}, Vector3d::Zero(),
-         {below - Vector3d(0, 0, 0.3), below, "thrown up again"});
+         {below - Vector3d(0, 0, 0.3), below, "thrown up again"}, m_.lead);
+  }
+
+  // The last throw came too late: the ball still falls. The next one has twice the time.
+  void throwEarlier() {
+    m_.has_risen = true;
+    m_.lead *= 2;
+    // As fast as possible can be faster than messages travel: then nothing can be flown from here.
+    m_.is_too_late = m_.lead > kMaxLead;
+    if (m_.is_too_late) ROS_WARN("the simulation is too fast to be flown from here: hands off");
   }
 
   // Gives the impulse [N s], [N m s] in the axes and at the origin of `frame`.
   void push(const std::string& body, const std::string& frame, const Vector3d& linear,
-            const Vector3d& angular, Arrow arrow) {
+            const Vector3d& angular, Arrow arrow, double lead = kLead) {
     ImpulseStamped msg;
-    msg.header.stamp = m_.header.stamp + ros::Duration(kLead);
+    msg.header.stamp = m_.header.stamp + ros::Duration(lead);
     msg.header.frame_id = frame;
     msg.linear = toVector3(linear);
     msg.angular = toVector3(angular);
     impulse_pubs_.at(body).publish(msg);
     arrow.frame = frame;
-    arrow.time = m_.now + kLead;
+    arrow.time = m_.now + lead;
     m_.arrows[body] = arrow;
   }
 
