@@ -93,6 +93,15 @@ TEST(InputStamp, OfTheFutureIsRefusedWhenTenThousandWaitAlready) {
   EXPECT_NO_THROW(f.rules.impulse(kAsset, message));
 }
 
+TEST(InputStamp, OfZeroIsRefusedWhenTwentyThousandWait) {
+  Fixture f;  // as when a sender of impulses goes on while the simulation is paused
+  const auto message = impulseIn("pod");
+  for (int i = 0; i < 20'000; ++i) f.simulator.apply(f.rules.impulse(kAsset, message));
+  EXPECT_EQ(refused([&] { f.rules.impulse(kAsset, message); }).refusal, Refusal::kTooManyWaiting);
+  f.simulator.step();
+  EXPECT_NO_THROW(f.rules.impulse(kAsset, message));
+}
+
 // ---- Durations
 
 TEST(InputDuration, OfAHeldWrenchIsTheTimeout) {

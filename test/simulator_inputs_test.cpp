@@ -234,6 +234,16 @@ TEST(Wrench, OfTwoMessagesInOneTickTheLaterCounts) {
   }
 }
 
+TEST(Wrench, OfASenderThatGoesOnWhileNothingIsSteppedWaitsAlone) {
+  Simulator simulator(scene());
+  for (std::uint64_t i = 1; i <= 1000; ++i) {
+    simulator.apply(held(static_cast<double>(i), "topic", i));
+    simulator.apply(held(1, "topic", i, 1));
+  }
+  EXPECT_EQ(simulator.pendingCount(), 2u);  // the entries of the last message
+  EXPECT_NEAR(forceInNextTick(simulator), 1001, 1001 * kForceRounding);
+}
+
 TEST(Wrench, OfZeroEndsTheOneBefore) {
   Simulator simulator(scene());
   simulator.apply(held(10, "topic", 1));

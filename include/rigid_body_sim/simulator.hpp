@@ -30,6 +30,9 @@ struct WrenchInput {
   Origin origin;
 };
 
+/// Whether `input` ends `old` when both act.
+bool isReplacedBy(const WrenchInput& old, const WrenchInput& input);
+
 /// Momentum given at once, at the beginning of a tick.
 struct ImpulseInput {
   Eigen::Index body = 0;

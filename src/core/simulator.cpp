@@ -105,6 +105,17 @@ void Simulator::apply(WrenchInput input) {
   check(input, scene_);
   if (input.ticks < 0) throw std::invalid_argument("a negative number of ticks");
   input.start = std::max(input.start, tick_);
+  if (input.replaces && input.start == tick_) {
+    // What it will replace at once need not wait: a sender that goes on while the simulation is
+    // paused keeps one input, not all.
+    const auto is_replaced = [&](const WrenchInput& old) {
+      return old.start <= tick_ && old.origin.sequence < input.origin.sequence &&
+             isReplacedBy(old, input);
+    };
+    pending_wrenches_.erase(
+        std::remove_if(pending_wrenches_.begin(), pending_wrenches_.end(), is_replaced),
+        pending_wrenches_.end());
+  }
   pending_wrenches_.push_back(std::move(input));
 }
 

@@ -10,12 +10,12 @@ auto orderOf(const WrenchInput& input) {
   return std::tie(input.body, input.origin.source, input.origin.sequence, input.origin.entry);
 }
 
+}  // namespace
+
 bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
   return old.replaces && input.replaces && old.body == input.body &&
          old.origin.source == input.origin.source && old.origin.sequence != input.origin.sequence;
 }
-
-}  // namespace
 
 void AppliedWrenches::addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const {
   for (const WrenchInput& input : held_) {

@@ -131,8 +131,19 @@ AppliedWrench InputRules::appliedAt(Eigen::Index body, const std::string& frame_
   return result;
 }
 
+void InputRules::requireRoom(bool is_ahead) const {
+  // As many again may act at once: only a paused simulation lets those wait.
+  const std::size_t room = is_ahead ? kMaxWaiting : 2 * kMaxWaiting;
+  if (simulator_.pendingCount() < room) return;
+  throw RefusedInput(Refusal::kTooManyWaiting,
+                     std::to_string(room) + " inputs are waiting for their tick");
+}
+
 Tick InputRules::startTick(const ros::Time& stamp) const {
-  if (stamp.isZero()) return simulator_.tick();
+  if (stamp.isZero()) {
+    requireRoom(false);
+    return simulator_.tick();
+  }
   const ros::Time now = time_.at(simulator_.tick());
   // Not as a ros::Duration, which throws for 68 years and more.
   const double age_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(now.toNSec()) -
@@ -147,9 +158,7 @@ Tick InputRules::startTick(const ros::Time& stamp) const {
          << " s can wait; is the sender on another clock?";
     throw RefusedInput(Refusal::kTooFarAhead, text.str());
   }
-  if (age_s < 0 && simulator_.pendingCount() >= kMaxWaiting)
-    throw RefusedInput(Refusal::kTooManyWaiting,
-                       std::to_string(kMaxWaiting) + " inputs are waiting for their tick");
+  requireRoom(age_s < 0);
   return std::max(simulator_.tick(), time_.firstTickFrom(stamp));
 }
 

@@ -82,6 +82,7 @@ class InputRules {
   AppliedWrench appliedAt(Eigen::Index body, const std::string& frame_id,
                           const std::string& point_frame, const Vector3d& point,
                           const Wrench& wrench) const;
+  void requireRoom(bool is_ahead) const;
   Tick startTick(const ros::Time& stamp) const;
   Tick heldTicks() const;
   void check(Eigen::Index body, const AppliedWrench& applied, const Bounds& bounds) const;

@@ -1,5 +1,7 @@
 #include "node/outputs.hpp"
 
+#include <ros/publication.h>
+#include <ros/topic_manager.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
 
@@ -15,6 +17,22 @@ rosgraph_msgs::Clock toClock(const ros::Time& stamp) {
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
   return clock;
+}
+
+/// Whether anything was sent to the subscriber, by roscpp's own count. One that came while a tick
+/// waited to be sent has got it with all others; one that came later has not.
+bool hasGotSomething(const ros::SingleSubscriberPublisher& subscriber) {
+  const auto publication = ros::TopicManager::instance()->lookupPublication(subscriber.getTopic());
+  if (!publication) return true;
+  XmlRpc::XmlRpcValue links, counts = publication->getStats()[1];  // id, bytes, data, messages, 0
+  links.setSize(0);
+  publication->getInfo(links);  // id, subscriber, ...
+  for (int i = 0; i < links.size(); ++i) {
+    if (static_cast<std::string>(links[i][1]) != subscriber.getSubscriberName()) continue;
+    for (int k = 0; k < counts.size(); ++k)
+      if (counts[k][0] == links[i][0] && static_cast<int>(counts[k][3]) == 0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -49,8 +67,15 @@ template <class Message>
 ros::Publisher Outputs::advertise(const std::string& topic, std::function<Message()> make) {
   return nh_.advertise<Message>(topic, kQueueSize,
                                 [this, make](const ros::SingleSubscriberPublisher& subscriber) {
-                                  if (is_paused_) subscriber.publish(make());
+                                  if (is_paused_ && !hasGotSomething(subscriber))
+                                    subscriber.publish(make());
                                 });
+}
+
+void Outputs::serveNewSubscribers() {
+  if (connections_.isEmpty()) return;
+  if (is_paused_) gate_.drain();
+  connections_.callAvailable(ros::WallDuration(0));
 }
 
 void Outputs::publish() {

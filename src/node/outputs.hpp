@@ -31,8 +31,8 @@ class Outputs {
   /// Whether the state stands still, so that new subscribers are to be told of it.
   void setPaused(bool is_paused) { is_paused_ = is_paused; }
 
-  /// Tells those who subscribed since the last call; to be called before the state changes.
-  void serveNewSubscribers() { connections_.callAvailable(ros::WallDuration(0)); }
+  /// Tells those who subscribed since the last call, and have got nothing yet, if paused.
+  void serveNewSubscribers();
 
  private:
   template <class Message>

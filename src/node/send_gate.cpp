@@ -20,6 +20,11 @@ void SendGate::pass() {
   while (ahead_ >= kMaxAhead && ros::ok()) taken_.wait_for(lock, std::chrono::milliseconds(100));
 }
 
+void SendGate::drain() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (ahead_ > 0 && ros::ok()) taken_.wait_for(lock, std::chrono::milliseconds(100));
+}
+
 void SendGate::taken() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -20,6 +20,9 @@ class SendGate {
   /// ROS is shut down.
   void pass();
 
+  /// Returns when nothing waits any more, or ROS is shut down.
+  void drain();
+
  private:
   static constexpr int kMaxAhead = 50;  // half of what a publisher holds for a slow subscriber
 
