@@ -31,7 +31,9 @@ build() {
   fi
   mkdir -p "$build/home/run" && chmod 700 "$build/home/run"
   echo "Building in $build"
+  # The devel space stands beside: rosrun does not look into folders called build.
   cmake -S "$checkout" -B "$build" -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+    -DCATKIN_DEVEL_PREFIX="$checkout/devel" -DCMAKE_INSTALL_PREFIX="$checkout/install" \
     >"$build/configure.log" || { cat "$build/configure.log"; return 1; }
   # catkin reports every message package of ROS at every build: left out.
   cmake --build "$build" --parallel "$(nproc)" --target "$@" | sed -u '/Built target/d'

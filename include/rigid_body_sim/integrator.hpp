@@ -25,7 +25,7 @@ enum class Gyroscopic { kOn, kOff };
 /// promise.
 struct IntegratorRow {
   std::string name;
-  int order;                    ///< of the global error, torque-free and forced
+  int order;  ///< of the global error, under wrenches that depend on time and pose
   bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
   bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
   int evaluations;              ///< of the effects, a step

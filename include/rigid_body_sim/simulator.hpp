@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "rigid_body_sim/integrator.hpp"
@@ -41,6 +42,15 @@ struct ImpulseInput {
   Origin origin;
 };
 
+/// The order in which the inputs of one tick are taken: by body, then by origin.
+template <class Input>
+bool isBefore(const Input& a, const Input& b) {
+  const auto key = [](const Input& input) {
+    return std::tie(input.body, input.origin.source, input.origin.sequence, input.origin.entry);
+  };
+  return key(a) < key(b);
+}
+
 /// A body that was stopped because its state would have become infinite or not a number.
 struct FrozenBody {
   Eigen::Index body;
@@ -68,7 +78,8 @@ class AppliedWrenches : public Effect {
 class Simulator {
  public:
   /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a frame twice, an
-  /// invalid tensor, an unknown integrator, a step that is not positive.
+  /// invalid tensor, a pose that is no rigid transform, an unknown integrator, a step that is not
+  /// positive.
   explicit Simulator(Scene scene);
 
   const Scene& scene() const { return scene_; }
@@ -77,8 +88,8 @@ class Simulator {
   Tick tick() const { return tick_; }
 
   /// Hands over an input; it is latched when its tick begins.
-  /// @throws std::invalid_argument for an unknown body, a number that is not finite, or a negative
-  /// number of ticks; nothing is changed then.
+  /// @throws std::invalid_argument for an unknown body, a number that is not finite, a negative
+  /// number of ticks, or a torque on a point mass; nothing is changed then.
   void apply(WrenchInput input);
   void apply(ImpulseInput input);
 
@@ -103,7 +114,7 @@ class Simulator {
   std::size_t pendingCount() const { return pending_wrenches_.size() + pending_impulses_.size(); }
 
   /// Wrenches that act now.
-  const std::vector<WrenchInput>& heldWrenches() const { return applied_.held(); }
+  const std::vector<WrenchInput>& heldWrenches() const { return applied_->held(); }
 
   /// Wrenches that ran out at the beginning of the latest tick; replaced ones are not among them.
   const std::vector<WrenchInput>& endedWrenches() const { return ended_; }
@@ -122,7 +133,8 @@ class Simulator {
   Tick tick_ = 0;
   std::unique_ptr<Integrator> integrator_;
   ActiveEffects active_;
-  AppliedWrenches applied_;
+  // At a fixed address, as active_ points to it and a simulator may be moved.
+  std::unique_ptr<AppliedWrenches> applied_ = std::make_unique<AppliedWrenches>();
   bool applied_is_active_ = false;
   std::vector<WrenchInput> pending_wrenches_;
   std::vector<ImpulseInput> pending_impulses_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Relative slack of the triangle inequality: URDF exporters round to five to seven digits.
+/// Relative slack of the triangle inequality, for numbers that were rounded to seven digits. A flat
+/// plate rounded to six may fail it; it is refused with the nearest tensor that does not.
 constexpr double kTriangleSlack = 1e-6;
 
 void requirePositive(double value, const char* what) {
@@ -149,7 +151,8 @@ std::string invalidity(const MassProperties& body) {
   if (!body.p_FBcm.allFinite()) return "centre of mass is not finite";
   if (!body.I_BBcm_F.allFinite()) return "inertia tensor is not finite";
   // What a sum of parts may be off by: sixteen ulps of the largest element.
-  const double rounding = 16 * 2.3e-16 * body.I_BBcm_F.cwiseAbs().maxCoeff();
+  const double rounding =
+      16 * std::numeric_limits<double>::epsilon() * body.I_BBcm_F.cwiseAbs().maxCoeff();
   if ((body.I_BBcm_F - body.I_BBcm_F.transpose()).cwiseAbs().maxCoeff() > rounding)
     return "inertia tensor is not symmetric";
   const Vector3d moments = principalInertia(body.I_BBcm_F).I_BBcm_B;
@@ -157,7 +160,9 @@ std::string invalidity(const MassProperties& body) {
       << ") kg m^2 ";
   // Below the smallest normal number a moment cannot be inverted without loss. A full tensor does
   // not hold a moment below its own rounding: particles in a line leave noise there, of any sign.
-  const double least = body.I_BBcm_F.isDiagonal(0) ? 2.3e-308 : std::max(2.3e-308, rounding);
+  const double least = body.I_BBcm_F.isDiagonal(0)
+                           ? std::numeric_limits<double>::min()
+                           : std::max(std::numeric_limits<double>::min(), rounding);
   if (!(moments(0) >= least)) {
     why << "must be positive";
     return why.str();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,7 +17,7 @@ std::int64_t readStep(const Parameters& parameters) {
   const auto step_ns = static_cast<std::int64_t>(std::llround(step_s * 1e9));
   // A decimal number of nanoseconds is off by at most an ulp of the product.
   if (std::abs(step_s * 1e9 - static_cast<double>(step_ns)) > 4.5e-16 * step_s * 1e9)
-    parameters.refuse("step_s", "must be a whole number of nanoseconds");
+    parameters.refuse("step_s", toText({step_s}) + " is not a whole number of nanoseconds");
   return step_ns;
 }
 
@@ -61,11 +62,14 @@ std::vector<Parameters> readBodies(const Parameters& parameters, Scene& scene) {
   const Parameters all = parameters.child("bodies");
   std::vector<Parameters> blocks;
   for (const SceneBody& body : scene.bodies) blocks.push_back(all.child(body.name));
-  const std::size_t from_urdf = scene.bodies.size();
+  std::set<std::string> urdf_names;
+  for (const SceneBody& body : scene.bodies) urdf_names.insert(body.name);
   for (const std::string& name : all.keys()) {
-    const auto is_it = [&](const SceneBody& body) { return body.name == name; };
-    if (std::any_of(scene.bodies.begin(), scene.bodies.begin() + from_urdf, is_it)) continue;
+    if (urdf_names.count(name)) continue;
     blocks.push_back(all.child(name));
+    const std::string nearest = nearestWord(name, urdf_names);
+    if (!nearest.empty() && !saysWhatItIs(blocks.back()))
+      all.refuse(name, "no URDF has a root link of this name; did you mean '" + nearest + "'?");
     scene.bodies.push_back(bodyFromNumbers(blocks.back(), name));
   }
   for (std::size_t i = 0; i < blocks.size(); ++i) readInitialMotion(blocks[i], scene.bodies[i]);

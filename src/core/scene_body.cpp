@@ -1,6 +1,8 @@
 #include "core/scene_body.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace rigid_body_sim {
@@ -52,14 +54,21 @@ MassProperties readParticles(const Parameters& block) {
   return massPropertiesOfParticles(particles);
 }
 
+constexpr const char* kWays[] = {"mass", "box", "sphere", "cylinder", "particles", "point_mass"};
+
 }  // namespace
+
+bool saysWhatItIs(const Parameters& block) {
+  return std::any_of(std::begin(kWays), std::end(kWays),
+                     [&](const char* way) { return block.has(way); });
+}
 
 SceneBody bodyFromNumbers(const Parameters& block, const std::string& name) {
   requireName(name, "body");
   SceneBody body;
   body.name = name;
   std::string found;
-  for (const std::string way : {"mass", "box", "sphere", "cylinder", "particles", "point_mass"}) {
+  for (const std::string way : kWays) {
     if (!block.has(way)) continue;
     if (!found.empty()) block.refuse(way, "the body already has '" + found + "'; give one of them");
     found = way;

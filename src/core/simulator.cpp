@@ -4,7 +4,6 @@
 #include <cassert>
 #include <map>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace rigid_body_sim {
@@ -78,6 +77,15 @@ void requireUniqueFrames(const Scene& scene) {
   }
 }
 
+/// Scaled, sheared or left-handed poses are none. One made of doubles is off by some 1e-15, one
+/// made of floats by 1e-7 and refused.
+void requireRigid(const SceneBody& body) {
+  const Matrix3d R_WL = body.X_WL.linear();
+  const double off = (R_WL * R_WL.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(off < 1e-9) || R_WL.determinant() < 0)
+    throw std::invalid_argument("body '" + body.name + "': its pose is no rigid transform");
+}
+
 }  // namespace
 
 Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
@@ -86,6 +94,7 @@ Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   requireUniqueFrames(scene_);
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
   for (const SceneBody& body : scene_.bodies) {
+    requireRigid(body);
     const auto i = static_cast<Eigen::Index>(frames_.size());
     frames_.push_back(frameOf(body));
     initial_.mass(i) = frames_.back().mass;
@@ -98,7 +107,10 @@ Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   }
   bodies_ = before_ = initial_;
   integrator_ = integratorNamed(scene_.integrator).make(scene_.gyroscopic);
-  for (const auto& effect : scene_.effects) active_.add(effect.get());
+  for (const auto& effect : scene_.effects) {
+    if (!effect) throw std::invalid_argument("an effect of the scene is null");
+    active_.add(effect.get());
+  }
 }
 
 void Simulator::apply(WrenchInput input) {
@@ -126,16 +138,14 @@ void Simulator::apply(ImpulseInput input) {
 }
 
 void Simulator::latchInputs() {
-  ended_ = applied_.update(takeDue(pending_wrenches_, tick_), tick_);
-  const bool acts = applied_.bodyCount() > 0;
-  if (acts != applied_is_active_) acts ? active_.add(&applied_) : active_.remove(&applied_);
+  ended_ = applied_->update(takeDue(pending_wrenches_, tick_), tick_);
+  const bool acts = applied_->bodyCount() > 0;
+  if (acts != applied_is_active_)
+    acts ? active_.add(applied_.get()) : active_.remove(applied_.get());
   applied_is_active_ = acts;
 
   std::vector<ImpulseInput> impulses = takeDue(pending_impulses_, tick_);
-  std::sort(impulses.begin(), impulses.end(), [](const ImpulseInput& a, const ImpulseInput& b) {
-    return std::tie(a.body, a.origin.source, a.origin.sequence, a.origin.entry) <
-           std::tie(b.body, b.origin.source, b.origin.sequence, b.origin.entry);
-  });
+  std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
   for (const ImpulseInput& input : impulses) {
     if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
     BodyState body = bodies_.state(input.body);
@@ -168,9 +178,9 @@ void Simulator::step() {
 
 void Simulator::reset() {
   copyState(initial_, bodies_);
-  if (applied_is_active_) active_.remove(&applied_);
+  if (applied_is_active_) active_.remove(applied_.get());
   applied_is_active_ = false;
-  applied_.clear();
+  applied_->clear();
   pending_wrenches_.clear();
   pending_impulses_.clear();
   ended_.clear();

@@ -120,15 +120,26 @@ std::string typeName(const urdf::Joint& joint) {
   }
 }
 
+/// As a message shows it and a user types it again: to nine digits, well below invalidity's slack.
+double toNineDigits(double number) {
+  std::stringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  text << number;
+  text >> number;
+  return number;
+}
+
 /// The suggestion after a broken tensor; empty if there is none that would pass.
 std::string suggestion(MassProperties body) {
   if (!(body.mass > 0) || !body.p_FBcm.allFinite() || !body.I_BBcm_F.allFinite()) return {};
-  body.I_BBcm_F = nearestValidInertia(body.I_BBcm_F);
+  const Matrix3d nearest = nearestValidInertia(body.I_BBcm_F).unaryExpr(&toNineDigits);
+  body.I_BBcm_F = nearest.selfadjointView<Eigen::Upper>();
   if (!invalidity(body).empty()) return {};
   const Matrix3d& I = body.I_BBcm_F;
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text.precision(9);  // rounding stays below invalidity's slack
+  text.precision(9);
   text << "; nearest valid tensor about the centre of mass, in link axes: ixx=" << I(0, 0)
        << " ixy=" << I(0, 1) << " ixz=" << I(0, 2) << " iyy=" << I(1, 1) << " iyz=" << I(1, 2)
        << " izz=" << I(2, 2);

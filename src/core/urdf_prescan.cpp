@@ -21,6 +21,16 @@ bool continuesName(char c) {
   return startsName(c) || isDigit(c) || c == '-' || c == '.' || c == ':';
 }
 
+/// Whether `second` may follow `lead`, the first of three or four bytes: no character in more bytes
+/// than it needs, no surrogate, none above U+10FFFF (RFC 3629, section 4).
+bool isSecondByte(unsigned char lead, unsigned char second) {
+  if (lead == 0xE0) return second >= 0xA0;
+  if (lead == 0xED) return second < 0xA0;
+  if (lead == 0xF0) return second >= 0x90;
+  if (lead == 0xF4) return second < 0x90;
+  return true;
+}
+
 /// Bytes of the UTF-8 character at the head of `text`; 0 if there is none.
 std::size_t utf8Length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
@@ -33,6 +43,7 @@ std::size_t utf8Length(std::string_view text) {
   if (length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  if (length > 2 && !isSecondByte(lead, static_cast<unsigned char>(text[1]))) return 0;
   return length;
 }
 

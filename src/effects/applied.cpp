@@ -1,16 +1,8 @@
 #include <algorithm>
-#include <tuple>
 
 #include "rigid_body_sim/simulator.hpp"
 
 namespace rigid_body_sim {
-namespace {
-
-auto orderOf(const WrenchInput& input) {
-  return std::tie(input.body, input.origin.source, input.origin.sequence, input.origin.entry);
-}
-
-}  // namespace
 
 bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
   return old.replaces && input.replaces && old.body == input.body &&
@@ -28,8 +20,7 @@ void AppliedWrenches::addWrenches(const Bodies& bodies, double, Wrenches& wrench
 
 std::vector<WrenchInput> AppliedWrenches::update(std::vector<WrenchInput> begun, Tick tick) {
   std::vector<WrenchInput> ended;
-  std::sort(begun.begin(), begun.end(),
-            [](const auto& a, const auto& b) { return orderOf(a) < orderOf(b); });
+  std::sort(begun.begin(), begun.end(), isBefore<WrenchInput>);
   for (WrenchInput& input : begun) {
     held_.erase(std::remove_if(held_.begin(), held_.end(),
                                [&](const auto& old) { return isReplacedBy(old, input); }),
@@ -43,8 +34,7 @@ std::vector<WrenchInput> AppliedWrenches::update(std::vector<WrenchInput> begun,
   const auto first_ended = std::stable_partition(held_.begin(), held_.end(), runs_on);
   ended.assign(std::make_move_iterator(first_ended), std::make_move_iterator(held_.end()));
   held_.erase(first_ended, held_.end());
-  std::sort(held_.begin(), held_.end(),
-            [](const auto& a, const auto& b) { return orderOf(a) < orderOf(b); });
+  std::sort(held_.begin(), held_.end(), isBefore<WrenchInput>);
   return ended;
 }
 

@@ -180,7 +180,11 @@ class DemoPilot {
     const double v_now = (ball.q_WL * ball.v_WL_L).z();
     const double v = v_now - kGravity * m_.lead;
     const double z = ball.p_WL.z() + v_now * m_.lead - 0.5 * kGravity * m_.lead * m_.lead;
-    m_.has_risen |= v_now > 0;
+    if (v_now > 0) {  // thrown in time, or reset
+      m_.has_risen = true;
+      m_.is_too_late = false;
+      m_.lead = kLead;
+    }
     if (v > 0 || z > kBallLow || m_.now < m_.thrown + 2 * m_.lead || m_.is_too_late) return;
     if (!m_.has_risen) return throwEarlier();
     m_.has_risen = false;
@@ -193,7 +197,7 @@ class DemoPilot {
 
   // The last throw came too late: the ball still falls. The next one has twice the time.
   void throwEarlier() {
-    m_.has_risen = true;
+    m_.has_risen = true;  // forgiven
     m_.lead *= 2;
     // As fast as possible can be faster than messages travel: then nothing can be flown from here.
     m_.is_too_late = m_.lead > kMaxLead;
@@ -229,9 +233,10 @@ class DemoPilot {
   void draw(const ros::WallTimerEvent&) {
     markers_.markers.clear();
     label("t_handle", "T-handle", "left alone: it flips");
-    label("astrobee", "Astrobee", "held by wrenches");
+    const char* too_fast = m_.is_too_late ? "too fast to be flown" : nullptr;
+    label("astrobee", "Astrobee", too_fast ? too_fast : "held: force red, torque violet");
     label("nesc_brick", "NESC brick", "tumbling freely");
-    label("ball", "Ball", "falling freely");
+    label("ball", "Ball", too_fast ? too_fast : "falling freely");
     drawBallRange();
     for (const auto& [body, arrow] : m_.arrows) {
       Marker& marker = addMarker("impulse/" + body, arrow.frame, Marker::ARROW, kAmber);

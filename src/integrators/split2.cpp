@@ -14,12 +14,15 @@ namespace {
 /// splitting of these two is symmetric, symplectic, and exact when I1 = I2 or I2 = I3. Splitting of
 /// the free rigid body into rotations: Touma and Wisdom, Astron. J. 107 (1994) 1189; McLachlan,
 /// Phys. Rev. Lett. 71 (1993) 3043. Shifting by the Casimir makes the split terms small for nearly
-/// symmetric bodies.
+/// symmetric bodies. "Exact" is up to the rounding of m, which turns a thin rod's own spin by
+/// I3/I1 times as much: 7e-7 rad in 100 s for 1 : 1e6.
 Quaterniond freeAttitude(const Quaterniond& q_WB, const Vector3d& L_W, const Vector3d& I,
                          double h) {
   const double a2 = 1 / I(1);
-  const double d1 = (I(1) - I(0)) / (I(0) * I(1));  // a1 - a2, without cancellation
-  const double d3 = (I(1) - I(2)) / (I(1) * I(2));  // a3 - a2
+  // a1 - a2 and a3 - a2: from differences of moments, as those of inverses cancel, and divided one
+  // by one, as the product of moments may leave the range of numbers.
+  const double d1 = (I(1) - I(0)) / I(0) / I(1);
+  const double d3 = (I(1) - I(2)) / I(1) / I(2);
   const Vector3d m = q_WB.conjugate() * L_W;
 
   // Half a turn about axis 3, a whole one about 1, half a one about 3. Momentum components turn the
@@ -45,7 +48,8 @@ Quaterniond freeAttitude(const Quaterniond& q_WB, const Vector3d& L_W, const Vec
   return renormalized(rotationExp(h * a2 * L_W) * q_WB * turn);
 }
 
-/// Without w x I w the angular velocity keeps its world components; L follows from it.
+/// Without w x I w the angular velocity keeps its world components; L follows from it. Going from L
+/// to w and back each step costs 2.6e-16 of w a step, always to the same side.
 void freeSpinWithoutGyroscopicTerm(BodyState& body, const Vector3d& I, double h) {
   const Vector3d w_WB = angularVelocity(body, I);
   body.q_WB = renormalized(rotationExp(h * w_WB) * body.q_WB);
@@ -71,8 +75,9 @@ void drift(Bodies& bodies, double h) {
   }
 }
 
-/// Half a kick, a whole drift, half a kick: second order under any torque, and the parabola of a
-/// constant force exactly, x += v h + a h^2/2.
+/// Half a kick, a whole drift, half a kick: second order under wrenches that depend on time and
+/// pose, first order under those that depend on velocities. The parabola of a constant force is
+/// exact, x += v h + a h^2/2.
 template <Gyroscopic gyroscopic>
 class Split2 : public Integrator {
  public:

@@ -74,7 +74,8 @@ void Inputs::take(const ros::MessageEvent<const Message>& event, const std::stri
     simulator_.apply(std::move(input));
     ++counts_.accepted;
   } catch (const RefusedInput& refused) {
-    refuse(refused, source);
+    const bool is_list = topic == names::kWrenches || topic == names::kImpulses;
+    refuse(refused, (is_list ? "entry " + std::to_string(entry) + " of " : "") + source);
   }
 }
 

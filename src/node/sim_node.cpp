@@ -90,6 +90,10 @@ void SimNode::setPaused(bool is_paused) {
   publishTick();
   paused_ = is_paused;
   outputs_.setPaused(is_paused);
+  if (is_paused && !options_.publish_clock)
+    ROS_WARN(
+        "paused without /clock: the stamps of other nodes run ahead of this simulation's time; "
+        "set /use_sim_time to pause, step or change the pace");
 }
 
 bool SimNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {

@@ -7,15 +7,7 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-std::vector<Case> makeCases() {
-  std::vector<Case> cases;
-  cases.push_back({"dzhanibekov",
-                   1,
-                   {1, 2, 3},
-                   {0.1, 5, 0.1},
-                   "spin about the intermediate axis, a little off it: turns over again and again "
-                   "(V. Dzhanibekov, Salyut 7, 1985; rates of S. Peters' benchmark 'boxes')"});
-
+Case nescBrick() {
   // 1 ft = 0.3048 m, 1 lb = 0.45359237 kg, 1 slug = 1 lbf s^2/ft. The nine digits that the report
   // rounds its SI tensor to would turn the brick by 3e-9 rad in 30 s.
   constexpr double kSlugSquareFoot = 14.593902937206364 * 0.3048 * 0.3048;
@@ -30,34 +22,44 @@ std::vector<Case> makeCases() {
                      {0.2202324653, -0.3036432161, 0.5431392879},
                      2e-9,
                      1e-10};
-  cases.push_back(brick);
+  return brick;
+}
 
-  cases.push_back({"prolate_top",
-                   1,
-                   {0.4, 1, 1},
-                   {6, 1, -2},
-                   "closed form: two equal moments, the single one the smallest"});
-  cases.push_back({"oblate_top",
-                   1,
-                   {1, 1, 1.8},
-                   {1, -2, 6},
-                   "closed form: two equal moments, the single one the largest"});
-  cases.push_back({"thin_rod",
-                   1,
-                   {1e-6, 1, 1},
-                   {10, 1, 2},
-                   "closed form: moments a million to one, spinning about itself"});
-  cases.push_back({"sphere",
-                   1,
-                   {0.7, 0.7, 0.7},
-                   {1, -2, 3},
-                   "closed form: three equal moments, a constant rate"});
-  cases.push_back({"tumbling_stone",
-                   1,
-                   {1, 1.3, 2.1},
-                   {1.1, -2.3, 0.7},
-                   "three different moments, no axis near the spin"});
-  return cases;
+std::vector<Case> makeCases() {
+  return {
+      {"dzhanibekov",
+       1,
+       {1, 2, 3},
+       {0.1, 5, 0.1},
+       "spin about the intermediate axis, a little off it: turns over again and again "
+       "(V. Dzhanibekov, Salyut 7, 1985; rates of S. Peters' benchmark 'boxes')"},
+      nescBrick(),
+      {"prolate_top",
+       1,
+       {0.4, 1, 1},
+       {6, 1, -2},
+       "closed form: two equal moments, the single one the smallest"},
+      {"oblate_top",
+       1,
+       {1, 1, 1.8},
+       {1, -2, 6},
+       "closed form: two equal moments, the single one the largest"},
+      {"thin_rod",
+       1,
+       {1e-6, 1, 1},
+       {10, 1, 2},
+       "closed form: moments a million to one, spinning about itself"},
+      {"sphere",
+       1,
+       {0.7, 0.7, 0.7},
+       {1, -2, 3},
+       "closed form: three equal moments, a constant rate"},
+      {"tumbling_stone",
+       1,
+       {1, 1.3, 2.1},
+       {1.1, -2.3, 0.7},
+       "three different moments, no axis near the spin"},
+  };
 }
 
 }  // namespace

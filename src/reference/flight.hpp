@@ -45,8 +45,8 @@ struct Flight {
 /// Wanner, Solving Ordinary Differential Equations I, II.9). It shares no formula with the
 /// integrators. The number of steps doubles until the end changes by less than 1e-12, which leaves
 /// 1e-12 / 2^16 of truncation, and rounding of some 1e-16 times how much the motion spreads small
-/// differences.
-/// @throws std::runtime_error if it never settles.
+/// differences; or until the change no longer falls because of that rounding.
+/// @throws std::runtime_error if the change stays above 1e-9.
 Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
            double time_s);
 
