@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 /// URDFs that must be refused, and what the refusal must say.
@@ -222,6 +223,9 @@ const std::vector<BadUrdf> kBrokenTrees = {
     {"planar",
      robot(kTwoLinks + joint("table", "planar", "base", "tip")),
      {"joint 'table'", "planar"}},
+    {"revolute from world",
+     robot(link("world", "") + link("base") + joint("hinge", "revolute", "world", "base", kLimit)),
+     {"joint 'hinge'", "is revolute", "only fixed and floating"}},
     {"revolute without limit",
      robot(kTwoLinks + joint("hinge", "revolute", "base", "tip")),
      {"hinge", "refused by the URDF parser"}},
@@ -242,6 +246,28 @@ const std::vector<BadUrdf> kBrokenTrees = {
     {"bare world", robot(link("world", "")), {"link 'world'", "no body"}},
     {"10001 links", robot(links(10001)), {"more than 10000 links"}},
 };
+
+/// Bytes that are no UTF-8 by RFC 3629 though each has the right high bits: at both ends of every
+/// range that it forbids.
+inline std::vector<BadUrdf> badUtf8() {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> kinds = {
+      {"stray continuation", {"\x80", "\xBF"}},
+      {"overlong",
+       {"\xC0\x80", "\xC1\xBF", "\xE0\x80\x80", "\xE0\x9F\xBF", "\xF0\x80\x80\x80",
+        "\xF0\x8F\xBF\xBF"}},
+      {"surrogate", {"\xED\xA0\x80", "\xED\xBF\xBF"}},
+      {"above U+10FFFF",
+       {"\xF4\x90\x80\x80", "\xF4\xBF\xBF\xBF", "\xF5\x80\x80\x80", "\xF7\xBF\xBF\xBF"}},
+      {"five and six bytes", {"\xF8\x88\x80\x80\x80", "\xFC\x84\x80\x80\x80\x80", "\xFE", "\xFF"}},
+      {"no continuation", {"\xC3(", "\xE2\x82(", "\xE2(\x82", "\xF0\x9F\x98("}}};
+  std::vector<BadUrdf> cases;
+  for (const auto& [kind, texts] : kinds)
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      cases.push_back({kind + " " + std::to_string(i),
+                       robot("<!-- " + texts[i] + " -->" + link("base")),
+                       {"line 1", "not UTF-8"}});
+  return cases;
+}
 
 const std::string kGood = robot(link("base"));
 const std::string kLaughs =

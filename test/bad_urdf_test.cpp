@@ -8,11 +8,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bad_urdf_cases.hpp"
+#include "generic.hpp"
 #include "rigid_body_sim/urdf.hpp"
 
 namespace rigid_body_sim {
@@ -91,6 +93,7 @@ TEST_F(BadUrdfs, NumbersOtherThanPlainDecimalsAreRefused) { expectRefusedByAll(b
 TEST_F(BadUrdfs, ImpossibleInertialsAreRefused) { expectRefusedByAll(kImpossibleInertials); }
 TEST_F(BadUrdfs, WhatIsNotOneTreeIsRefused) { expectRefusedByAll(kBrokenTrees); }
 TEST_F(BadUrdfs, BrokenAndHostileTextsAreRefused) { expectRefusedByAll(kHostileTexts); }
+TEST_F(BadUrdfs, BytesThatAreNotUtf8AreRefused) { expectRefusedByAll(badUtf8()); }
 
 TEST_F(BadUrdfs, EveryTruncationOfAGoodOneIsRefused) {
   const std::string good = "<?xml version='1.0'?><!-- c -->" +
@@ -119,6 +122,63 @@ TEST_F(BadUrdfs, SourceWithNewlinesStaysOneLine) {
   } catch (const std::invalid_argument& error) {
     expectOneLine(error.what(), {"", "", {"a?b"}});
   }
+}
+
+// ---- The suggestion in the refusal of a tensor
+
+/// A URDF of one link with these moments, turned, in all their digits.
+std::string tensor(const Vector3d& moments, const Quaterniond& q) {
+  const Matrix3d R = q.toRotationMatrix();
+  const Matrix3d I = R * moments.asDiagonal() * R.transpose();
+  std::ostringstream text;
+  text.precision(17);
+  text << "ixx='" << I(0, 0) << "' ixy='" << I(0, 1) << "' ixz='" << I(0, 2) << "' iyy='" << I(1, 1)
+       << "' iyz='" << I(1, 2) << "' izz='" << I(2, 2) << "'";
+  return inertia(text.str());
+}
+
+/// A URDF of one link with the tensor that `what` suggests; empty if it suggests none.
+std::string suggested(const std::string& what) {
+  if (what.find("nearest valid tensor") == std::string::npos) return {};
+  std::istringstream words(what.substr(what.find("ixx=")));
+  std::string attributes;
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    attributes += word.substr(0, equals + 1) + "'" + word.substr(equals + 1) + "' ";
+  }
+  return inertia(attributes);
+}
+
+TEST(SuggestedTensor, IsAcceptedWhenItIsTyped) {
+  // Flat bodies all: the suggestion is on the edge, where digits too few fall off.
+  Sampler sample(29);
+  for (const double scale : {3.7e-6, 1.0, 4.1e5}) {
+    for (const Vector3d& moments : {Vector3d(1, 1, 3), Vector3d(0.31, 1.7, 2.9),
+                                    Vector3d(1e-5, 1, 1.1), Vector3d(2, 3, 11)}) {
+      for (int i = 0; i < 20; ++i) {
+        const std::string broken = tensor(scale * moments, sample.attitude());
+        const std::string text = suggested(refusal([&] { readUrdf(broken, "some.urdf"); }));
+        EXPECT_NO_THROW(readUrdf(text, "some.urdf")) << text;
+      }
+    }
+  }
+}
+
+TEST(SuggestedTensor, IsNotGivenIfItsNineDigitsSpoilIt) {
+  // The nearest has the moments (2e-10, 1, 1): nine digits leave the first of them either sign.
+  const Vector3d moments(-1e-7, 1, 1 + 1e-7 + 4e-10);
+  Sampler sample(31);
+  int count = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::string broken = tensor(moments, sample.attitude());
+    const std::string what = refusal([&] { readUrdf(broken, "some.urdf"); });
+    EXPECT_TRUE(contains(what, {"must be positive"}));
+    const std::string text = suggested(what);
+    if (text.empty()) continue;
+    ++count;
+    EXPECT_NO_THROW(readUrdf(text, "some.urdf")) << what;
+  }
+  EXPECT_LT(count, 40);
 }
 
 }  // namespace

@@ -209,6 +209,13 @@ TEST(LaunchFiles, DescribeEachOfTheirArguments) {
   }
 }
 
+TEST(LaunchFiles, KeepAnEarlierSceneOfTheSameMasterOut) {
+  // Without it the parameters of both scenes are read, and both are simulated.
+  const std::string launch = readTextFile(kPackage + "launch/simulate.launch");
+  const auto nodes = matchesOf("<node\\s[^>]*rigid_body_sim_node[^>]*>", launch);
+  ASSERT_EQ(nodes.size(), 1u);
+  EXPECT_TRUE(contains(nodes[0], {"clear_params=\"true\""}));
+}
 TEST(LaunchFiles, NameOnlyFilesThatAreThere) {
   for (const std::string& file : filesIn("launch", ".launch"))
     for (const std::string& path :

@@ -106,7 +106,18 @@ TEST(InputStamp, OfZeroIsRefusedWhenTwentyThousandWait) {
 
 TEST(InputDuration, OfAHeldWrenchIsTheTimeout) {
   const std::vector<std::pair<std::string, Tick>> ticks = {
-      {"1", 50}, {"0.02", 1}, {"0.3", 15}, {"0.31", 16}, {"0.019", 1}, {"1.0e-12", 1}, {"0", 0}};
+      {"1", 50},
+      {"0.02", 1},
+      {"0.3", 15},
+      {"0.31", 16},
+      {"0.019", 1},
+      {"1.0e-12", 1},
+      {"0", 0},
+      // Quotients of doubles that round to just above the whole number: not a tick more.
+      {"0.14", 7},
+      {"0.28", 14},
+      // Half a percent of a step over is over.
+      {"0.3001", 16}};
   for (const auto& [timeout, expected] : ticks) {
     const Fixture f("wrench_timeout_s: " + timeout);
     const WrenchInput held = f.rules.held(kAsset, wrenchIn("pod"));

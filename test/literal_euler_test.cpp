@@ -104,19 +104,22 @@ TEST(LiteralEuler, MovesThePositionWithTheNewVelocityOrWithTheOld) {
   // n h v + h^2 a n (n + 1) / 2; explicit: k = 0..n - 1, and n (n - 1) / 2.
   const int n = 40;
   const double h = 0.02;
-  const Vector3d v(0.3, -0.8, 0.5), f_W(0.7, -1.2, 0.4);  // on one kilogram
+  const double mass = 2.7;
+  const Vector3d v(0.3, -0.8, 0.5), f_W(0.7, -1.2, 0.4);
   for (const auto& [integrator, sum] :
        {std::pair(kSemiImplicit, n * (n + 1) / 2), std::pair(kExplicit, n * (n - 1) / 2)}) {
     Scene scene = sceneOf(kDzhanibekovI, Vector3d::Zero(), integrator);
+    scene.bodies[0].mass_properties.mass = mass;
     scene.bodies[0].v_WBcm = v;
     Simulator simulator(scene);
     WrenchInput push;
     push.applied.wrench.f_F = f_W;
     simulator.apply(push);
     for (int i = 0; i < n; ++i) simulator.step();
-    const Vector3d expected = n * h * v + h * h * sum * f_W;
+    const Vector3d expected = n * h * v + h * h * sum / mass * f_W;
     EXPECT_LE(difference(simulator.state(0).p_WBcm, expected), n * kEps) << integrator;
-    EXPECT_LE(difference(simulator.state(0).P_WB, v + n * h * f_W), n * kEps) << integrator;
+    EXPECT_LE(difference(simulator.state(0).P_WB, mass * v + n * h * f_W), 2 * n * kEps)
+        << integrator;
   }
 }
 
@@ -141,6 +144,19 @@ TEST(GyroscopicOff, IsStableAndWrong) {
     EXPECT_GT(worst_angle, 2.5) << integrator;
     EXPECT_LE(worst_angle, kPi + 8 * kEps) << integrator;
     EXPECT_GT(worst_L, 0.01) << integrator;
+  }
+}
+
+TEST(GyroscopicOff, LetsTheRateSlipByARoundingAStep) {
+  // From L to w and back, always to the same side: measured 2.6e-16 of w a step.
+  for (const char* integrator : {kExplicit, kSemiImplicit, "split2"}) {
+    Simulator simulator(sceneOf(kDzhanibekovI, kDzhanibekovW, integrator, Gyroscopic::kOff));
+    const Vector3d w_WB = angularVelocity(simulator.state(0), kDzhanibekovI);
+    for (const int steps : {10'000, 100'000}) {
+      while (simulator.tick() < steps) simulator.step();
+      const Vector3d slip = angularVelocity(simulator.state(0), kDzhanibekovI) - w_WB;
+      EXPECT_NEAR(slip.norm() / w_WB.norm() / steps, 1.2 * kEps, 0.3 * kEps) << integrator;
+    }
   }
 }
 

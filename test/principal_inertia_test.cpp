@@ -103,6 +103,32 @@ TEST(Invalidity, AllowsTheRoundingOfAChangeOfFrame) {
   }
 }
 
+TEST(Invalidity, AllowsSixteenUlpsOfAsymmetry) {
+  // Sixteen ulps of the largest element, 2.1, is what invalidity says a sum of parts may be off by.
+  // Half an ulp of the element that is spoilt is below 0.1 of these.
+  const double ulp = kEps * 2.1;
+  for (const double sign : {1.0, -1.0}) {
+    MassProperties body = genericBody();
+    body.I_BBcm_F(0, 1) += sign * 15 * ulp;
+    EXPECT_EQ(invalidity(body), "");
+    body = genericBody();
+    body.I_BBcm_F(0, 1) += sign * 17 * ulp;
+    EXPECT_TRUE(contains(invalidity(body), {"not symmetric"}));
+  }
+}
+
+TEST(Invalidity, AllowsAMillionthOfTheTriangleInequality) {
+  for (const Quaterniond& q : {Quaterniond::Identity(), genericAttitude()}) {
+    for (const double scale : {1e-9, 1.0, 1e9}) {
+      MassProperties body = genericBody();
+      body.I_BBcm_F = scale * turned({0.7, 1.3, 2 * (1 + 0.9e-6)}, q);
+      EXPECT_EQ(invalidity(body), "");
+      body.I_BBcm_F = scale * turned({0.7, 1.3, 2 * (1 + 1.1e-6)}, q);
+      EXPECT_TRUE(contains(invalidity(body), {"triangle inequality"}));
+    }
+  }
+}
+
 TEST(Invalidity, NamesWhatIsWrong) {
   struct Row {
     const char* what;

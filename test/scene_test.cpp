@@ -37,8 +37,8 @@ TEST(Scene, OfOneBodyHasTheDefaultsOfTheRest) {
 }
 
 TEST(Scene, StepIsWholeNanosecondsAndItsSecondsTheNumberThatWasWritten) {
-  for (const char* step :
-       {"0.02", "0.005", "0.003", "0.007", "1.0e-6", "1", "0.000123457", "0.1"}) {
+  for (const char* step : {"0.02", "0.005", "0.003", "0.007", "0.0041", "0.0082", "1.0e-6", "1",
+                           "0.000123457", "0.1"}) {
     const Scene scene =
         sceneFrom(std::string("{step_s: ") + step + ", bodies: {b: {point_mass: 1}}}");
     EXPECT_EQ(scene.step_s(), std::strtod(step, nullptr)) << step;
@@ -167,6 +167,8 @@ TEST(Scene, ThatIsWrongIsRefusedWithPathValueAndWhatIsAllowed) {
       {"{step_s: '0.02', BALL}", {"step_s: '0.02' ", "leave the quotes out"}},
       {"{step_s: true, BALL}", {"step_s: true "}},
       {"{step_s: 0.0000012345, BALL}", {"step_s: ", "whole number of nanoseconds"}},
+      {"{step_s: 0.00410000000000001, BALL}", {"step_s: ", "whole number of nanoseconds"}},
+      {"{step_s: 0.00819999999999999, BALL}", {"step_s: ", "whole number of nanoseconds"}},
       {"{stepp_s: 0.02, BALL}", {"stepp_s: unknown key", "'step_s'"}},
       {"{integrator: rk44, BALL}", {"integrator: 'rk44' ", "split2"}},
       {"{integrator: 5, BALL}", {"integrator: 5 ", "string"}},
@@ -268,6 +270,52 @@ TEST_F(SceneFile, FindsUrdfsFromItsOwnFolder) {
   EXPECT_EQ(scene.bodies[0].X_WL.translation(), Vector3d(1, 2, 3));
   EXPECT_EQ(scene.bodies[1].name, "another");
   EXPECT_TRUE(contains(scene.import_report, {"brick"}));
+}
+
+TEST_F(SceneFile, KeepsPosesFramesAndWarningsOfAUrdf) {
+  const std::string inertial =
+      "<inertial><mass value='2'/><inertia ixx='1' iyy='2' izz='2.5' "
+      "ixy='0' ixz='0' iyz='0'/></inertial>";
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& parent,
+                        const std::string& child, const std::string& origin) {
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent +
+           "'/><child link='" + child + "'/><origin " + origin +
+           "/><axis xyz='0 0 1'/><limit effort='1' velocity='1' lower='-1' upper='1'/></joint>";
+  };
+  write("bodies/two.urdf",
+        "<robot name='two'><link name='base'>" + inertial + "</link><link name='lid'>" + inertial +
+            "</link><link name='camera'/><link name='drone'>" + inertial + "</link>" +
+            joint("hinge", "revolute", "base", "lid", "xyz='0.1 0.2 0.3' rpy='0 0 0.5'") +
+            joint("mount", "fixed", "lid", "camera", "xyz='1 0 0'") +
+            joint("free", "floating", "lid", "drone", "xyz='4 5 6' rpy='0.3 0 0'") + "</robot>");
+  const Scene scene = readSceneFile(
+      write("s.yaml",
+            "{urdf: [bodies/two.urdf], joints: lock, bodies: {drone: {linear_velocity: [1, 2, "
+            "3]}}}"));
+  Isometry3d X_base_lid = Isometry3d::Identity(), X_lid_drone = Isometry3d::Identity();
+  X_base_lid.translation() << 0.1, 0.2, 0.3;
+  X_base_lid.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
+  X_lid_drone.translation() << 4, 5, 6;
+  X_lid_drone.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
+
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  const SceneBody &base = scene.bodies[0], &drone = scene.bodies[1];
+  EXPECT_EQ(base.name, "base");
+  EXPECT_EQ(base.mass_properties.mass, 4);
+  EXPECT_EQ(base.X_WL.matrix(), Isometry3d::Identity().matrix());
+  ASSERT_EQ(base.frames.size(), 2u);
+  EXPECT_EQ(base.frames[0].name, "lid");
+  EXPECT_LE(difference(base.frames[0].X_LF.matrix(), X_base_lid.matrix()), 4 * kEps);
+  EXPECT_EQ(base.frames[1].name, "camera");
+  EXPECT_LE(difference(base.frames[1].X_LF.translation(), X_base_lid * Vector3d(1, 0, 0)),
+            4 * kEps);
+  EXPECT_EQ(drone.name, "drone");
+  EXPECT_TRUE(drone.frames.empty());
+  EXPECT_LE(difference(drone.X_WL.matrix(), (X_base_lid * X_lid_drone).matrix()), 16 * kEps);
+  EXPECT_EQ(drone.v_WBcm, Vector3d(1, 2, 3));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_TRUE(contains(scene.warnings[0], {"hinge"}));
+  EXPECT_TRUE(contains(scene.import_report, {"hinge", "drone", "camera"}));
 }
 
 TEST_F(SceneFile, MayNameAUrdfByItsWholePath) {

@@ -19,13 +19,18 @@ ros::Duration durationOf(std::int64_t ns) {
   return duration.fromNSec(ns);
 }
 
-// Simulated time from 1 s, a wall clock's, steps that divide a second and that do not, the
-// shortest.
-const std::vector<SimTime> kTimes = {{kSecond, 20'000'000},
-                                     {1'700'000'000 * kSecond + 123'456'789, 20'000'000},
-                                     {kSecond, 3'333'333},
-                                     {kSecond, 1'000'000'000},
-                                     {kSecond, 1'000}};
+struct Row {
+  SimTime time;
+  std::int64_t slack_ns;  ///< the least of 500 ns and a quarter of a step, by hand
+};
+
+// Simulated time from 1 s, a wall clock's, steps that divide a second and that do not, those about
+// which the slack becomes a quarter of a step, the shortest.
+const std::vector<Row> kRows = {
+    {{kSecond, 20'000'000}, 500}, {{1'700'000'000 * kSecond + 123'456'789, 20'000'000}, 500},
+    {{kSecond, 3'333'333}, 500},  {{kSecond, 1'000'000'000}, 500},
+    {{kSecond, 2'000}, 500},      {{kSecond, 1'996}, 499},
+    {{kSecond, 1'000}, 250}};
 
 TEST(SimTime, ATickBeginsAWholeNumberOfStepsAfterTheStart) {
   const SimTime time = {kSecond, 20'000'000};
@@ -35,27 +40,31 @@ TEST(SimTime, ATickBeginsAWholeNumberOfStepsAfterTheStart) {
 }
 
 TEST(SimTime, TheStampOfATickIsThatTick) {
-  for (const SimTime& time : kTimes)
+  for (const Row& row : kRows)
     for (const Tick tick : {0, 1, 2, 3, 49, 1000, 4'320'000})
-      EXPECT_EQ(time.firstTickFrom(time.at(tick)), tick) << time.step_ns;
+      EXPECT_EQ(row.time.firstTickFrom(row.time.at(tick)), tick) << row.time.step_ns;
 }
 
 TEST(SimTime, AStampThatIsOffByTheSlackMeansTheTick) {
-  for (const SimTime& time : kTimes) {
+  for (const auto& [time, slack_ns] : kRows) {
     const Tick tick = 37;
     const std::int64_t at_ns = time.start_ns + tick * time.step_ns;
-    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns + time.slack())), tick) << time.step_ns;
-    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns - time.slack())), tick) << time.step_ns;
+    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns + slack_ns)), tick) << time.step_ns;
+    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns - slack_ns)), tick) << time.step_ns;
   }
 }
 
 TEST(SimTime, AStampLaterThanTheSlackMeansTheNextTick) {
-  for (const SimTime& time : kTimes) {
+  for (const auto& [time, slack_ns] : kRows) {
     const Tick tick = 37;
     const std::int64_t at_ns = time.start_ns + tick * time.step_ns;
-    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns + time.slack() + 1)), tick + 1) << time.step_ns;
+    EXPECT_EQ(time.firstTickFrom(stampAt(at_ns + slack_ns + 1)), tick + 1) << time.step_ns;
     EXPECT_EQ(time.firstTickFrom(stampAt(at_ns + time.step_ns / 2)), tick + 1) << time.step_ns;
   }
+}
+
+TEST(SimTime, TheSlackIsHalfAMicrosecondOrAQuarterOfAStep) {
+  for (const auto& [time, slack_ns] : kRows) EXPECT_EQ(time.slack(), slack_ns) << time.step_ns;
 }
 
 TEST(SimTime, AStampInDecimalSecondsMeansTheTick) {
@@ -80,12 +89,12 @@ TEST(SimTime, TheLastStampThatRosCanHoldMeansATick) {
 }
 
 TEST(SimTime, AMultipleOfTheStepIsThatManyTicks) {
-  for (const SimTime& time : kTimes) {
+  for (const auto& [time, slack_ns] : kRows) {
     for (const Tick ticks : {0, 1, 2, 50, 1999}) {
       const std::int64_t ns = ticks * time.step_ns;
       EXPECT_EQ(time.wholeTicks(durationOf(ns)), ticks) << time.step_ns;
-      EXPECT_EQ(time.wholeTicks(durationOf(ns + time.slack())), ticks) << time.step_ns;
-      EXPECT_EQ(time.wholeTicks(durationOf(ns - time.slack())), ticks) << time.step_ns;
+      EXPECT_EQ(time.wholeTicks(durationOf(ns + slack_ns)), ticks) << time.step_ns;
+      EXPECT_EQ(time.wholeTicks(durationOf(ns - slack_ns)), ticks) << time.step_ns;
     }
   }
 }
@@ -97,10 +106,10 @@ TEST(SimTime, ADurationInDecimalSecondsIsItsTicks) {
 }
 
 TEST(SimTime, ADurationOffByMoreThanTheSlackIsNoWholeNumberOfTicks) {
-  for (const SimTime& time : kTimes) {
+  for (const auto& [time, slack_ns] : kRows) {
     const std::int64_t ns = 3 * time.step_ns;
-    EXPECT_EQ(time.wholeTicks(durationOf(ns + time.slack() + 1)), -1) << time.step_ns;
-    EXPECT_EQ(time.wholeTicks(durationOf(ns - time.slack() - 1)), -1) << time.step_ns;
+    EXPECT_EQ(time.wholeTicks(durationOf(ns + slack_ns + 1)), -1) << time.step_ns;
+    EXPECT_EQ(time.wholeTicks(durationOf(ns - slack_ns - 1)), -1) << time.step_ns;
     EXPECT_EQ(time.wholeTicks(durationOf(ns + time.step_ns / 2)), -1) << time.step_ns;
   }
 }

@@ -61,6 +61,55 @@ TEST(Simulator, RefusesScenesThatCannotBeSimulated) {
   SceneBody fast = good;
   fast.v_WBcm.x() = 1e308;
   EXPECT_TRUE(contains(refusal([&] { Simulator{sceneOf(fast)}; }), {"body 'b'", "not finite"}));
+  Scene empty = sceneOf(good);
+  empty.effects.push_back(nullptr);
+  EXPECT_TRUE(contains(refusal([&] { Simulator{empty}; }), {"effect", "null"}));
+}
+
+TEST(Simulator, RefusesAPoseThatIsNoRigidTransform) {
+  const Matrix3d R_WL = genericPose().linear();
+  Matrix3d sheared = R_WL;
+  sheared.col(0) += 1e-6 * R_WL.col(1);
+  const std::vector<Matrix3d> bad = {
+      1.001 * R_WL,     -R_WL,      R_WL * Vector3d(1, 1, -1).asDiagonal(), sheared,
+      Matrix3d::Zero(), kNaN * R_WL};
+  for (const Matrix3d& linear : bad) {
+    for (const bool is_point_mass : {false, true}) {
+      SceneBody body = genericSceneBody("skewed");
+      body.is_point_mass = is_point_mass;
+      body.X_WL.linear() = linear;
+      EXPECT_TRUE(contains(refusal([&] { Simulator{sceneOf(body)}; }), {"body 'skewed'", "rigid"}))
+          << linear;
+    }
+  }
+}
+
+TEST(Simulator, GoesOnAfterItWasMovedAsIfItHadNotBeen) {
+  const auto pushed = [] {
+    auto simulator = std::make_unique<Simulator>(sceneOf(genericSceneBody("b")));
+    simulator->apply(push(Axes::kBody, {{1, 2, 3}, {4, 5, 6}}, {0.1, 0.2, 0.3}));
+    run(*simulator, 5);
+    return simulator;
+  };
+  auto origin = pushed();
+  Simulator moved(std::move(*origin));
+  auto second_origin = pushed();
+  Simulator assigned(sceneOf(pointMass("another", 3)));
+  assigned.apply(push(Axes::kWorld, {{1, 0, 0}, {0, 0, 0}}));
+  run(assigned, 3);
+  assigned = std::move(*second_origin);
+  origin.reset();  // with all that a stale pointer may point to
+  second_origin.reset();
+  const auto stayed = pushed();
+  ASSERT_EQ(moved.heldWrenches().size(), 1u);
+  ASSERT_EQ(assigned.heldWrenches().size(), 1u);
+  const BodyState before = stayed->state(0);
+  run(*stayed, 20);
+  run(moved, 20);
+  run(assigned, 20);
+  EXPECT_GT(difference(stayed->state(0).P_WB, before.P_WB), 0.1);  // it does act
+  EXPECT_TRUE(sameBits(moved.state(0), stayed->state(0)));
+  EXPECT_TRUE(sameBits(assigned.state(0), stayed->state(0)));
 }
 
 TEST(Simulator, OffCentreImpulseOnATurnedBodyGivesTheClosedForm) {
@@ -212,6 +261,18 @@ TEST(PointMass, MovesAsAParticleAndIsNeverRotated) {
   EXPECT_EQ(end.L_WBcm_W, Vector3d::Zero());
 }
 
+TEST(PointMass, StaysWithoutRotationWhateverItsSceneSays) {
+  SceneBody body = pointMass("dot", 0.5);
+  body.w_WB_L << 1, -2, 3;
+  for (const IntegratorRow& row : integrators()) {
+    Simulator simulator(sceneOf(body, row.name));
+    run(simulator, 10);
+    EXPECT_TRUE(sameBits(simulator.state(0).L_WBcm_W, Vector3d(0, 0, 0))) << row.name;
+    EXPECT_EQ(simulator.linkMotion(0).w_WL_L, Vector3d::Zero()) << row.name;
+    EXPECT_EQ(simulator.linkMotion(0).q_WL.coeffs(), Quaterniond::Identity().coeffs()) << row.name;
+  }
+}
+
 TEST(PointMass, TakesNoTorqueAndNoArm) {
   Scene scene = sceneOf(pointMass("dot", 0.5));
   Simulator simulator(scene);
@@ -293,6 +354,17 @@ TEST(Reset, GoesBackToTheStartWithoutInputsAndTakesATick) {
   EXPECT_TRUE(sameBits(simulator.state(0), start));
   EXPECT_EQ(simulator.pendingCount(), 0u);
   EXPECT_TRUE(simulator.heldWrenches().empty());
+  EXPECT_TRUE(simulator.endedWrenches().empty());
+}
+
+TEST(Reset, ForgetsTheWrenchesThatRanOutInTheTickBefore) {
+  Simulator simulator(twoBodies());
+  WrenchInput input = push(Axes::kBody, {{1, 2, 3}, {4, 5, 6}});
+  input.ticks = 1;
+  simulator.apply(input);
+  run(simulator, 2);
+  ASSERT_EQ(simulator.endedWrenches().size(), 1u);
+  simulator.reset();
   EXPECT_TRUE(simulator.endedWrenches().empty());
 }
 

@@ -206,6 +206,18 @@ TEST(Urdf, MasslessWorldRootIsAFrame) {
   EXPECT_NE(model.warnings[0].find("joint 'world_b'"), std::string::npos) << model.warnings[0];
 }
 
+TEST(Urdf, LockedJointOnAMasslessWorldIsTwoWarnings) {
+  const std::string text =
+      link("world") + link("a", kSphere) + joint("continuous", "world", "a", kXyz, kRpy);
+  EXPECT_THROW(read(text), std::invalid_argument);
+  const UrdfModel model = read(text, MovableJoints::kLock);
+  ASSERT_EQ(model.bodies.size(), 1u);
+  expectNear(model.bodies[0].X_ML, pose(kXyz, kRpy));
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_EQ(model.warnings[0], "joint 'world_a': is continuous, locked at zero");
+  EXPECT_NE(model.warnings[1].find("holds nothing"), std::string::npos) << model.warnings[1];
+}
+
 TEST(Urdf, WorldRootWithMassIsABody) {
   const UrdfModel model =
       read(link("world", kSphere) + link("a", kSphere) + joint("fixed", "world", "a", kXyz));
@@ -293,6 +305,17 @@ TEST(Urdf, HarmlessXmlIsRead) {
   ASSERT_EQ(model.bodies.size(), 1u);
   EXPECT_EQ(model.bodies[0].mass_properties.mass, 1.5);
   expectNear(model.bodies[0].mass_properties, {1.5, {1, 2, 3}, Matrix3d::Identity()});
+}
+
+TEST(Urdf, EveryLengthOfUtf8IsRead) {
+  // The first and last character of each range of RFC 3629, section 4.
+  for (const char* character :
+       {"\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xE0\xBF\xBF", "\xE1\x80\x80", "\xEC\xBF\xBF",
+        "\xED\x80\x80", "\xED\x9F\xBF", "\xEE\x80\x80", "\xEF\xBF\xBD", "\xF0\x90\x80\x80",
+        "\xF0\xBF\xBF\xBF", "\xF1\x80\x80\x80", "\xF3\xBF\xBF\xBF", "\xF4\x80\x80\x80",
+        "\xF4\x8F\xBF\xBF"})
+    EXPECT_EQ(read("<!-- " + std::string(character) + " -->" + link("a", kSphere)).bodies.size(),
+              1u);
 }
 
 TEST(Urdf, ChainOfTenThousandLinksIsOneBody) {

@@ -139,13 +139,15 @@ Scene readSceneFile(const std::string& path) {
 
 std::string summary(const SceneBody& body) {
   const MassProperties& properties = body.mass_properties;
+  const Eigen::IOFormat in_a_row(Eigen::StreamPrecision, Eigen::DontAlignCols, ", ", ", ");
   std::ostringstream text;
   text << body.name << ": " << properties.mass << " kg, centre of mass ("
-       << properties.p_FBcm.transpose() << ") m";
+       << properties.p_FBcm.transpose().format(in_a_row) << ") m";
   if (body.is_point_mass)
     text << ", a point mass";
   else
-    text << ", principal moments (" << principalInertia(properties.I_BBcm_F).I_BBcm_B.transpose()
+    text << ", principal moments ("
+         << principalInertia(properties.I_BBcm_F).I_BBcm_B.transpose().format(in_a_row)
          << ") kg m^2";
   return text.str();
 }

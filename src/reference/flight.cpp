@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace rigid_body_sim::reference {
@@ -124,9 +124,9 @@ Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const 
     coarse = fine;
   }
   if (!(least < kBearable)) {
-    throw std::runtime_error(
-        "the reference flight does not settle: too fast, too long or chaotic; doubt " +
-        std::to_string(static_cast<double>(least)));
+    std::ostringstream why;
+    why << "the reference flight does not settle: too fast, too long or chaotic; doubt " << least;
+    throw std::runtime_error(why.str());
   }
   return {rounded(unpacked(best)), static_cast<double>(least)};
 }
