@@ -34,7 +34,7 @@ def main(devel, scratch):
     (scratch / "main.cpp").write_text(block("cpp", "readSceneFile"))
     (scratch / "package.xml").write_text(
         "<package format='2'><name>my_package</name><version>0.0.0</version>"
-        "<description>d</description><maintainer email='a@b.c'>m</maintainer>"
+        "<description>d</description><maintainer email='me@example.org'>m</maintainer>"
         "<license>l</license><buildtool_depend>catkin</buildtool_depend>"
         "<depend>rigid_body_sim</depend></package>")
     for command in (
