@@ -26,6 +26,7 @@ enum class Gyroscopic { kOn, kOff };
 struct IntegratorRow {
   std::string name;
   int order;  ///< of the global error, under wrenches that depend on time and pose
+  bool free_flight_is_exact;    ///< without torque the error is rounding at any step, not of `order`
   bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
   bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
   int evaluations;              ///< of the effects, a step

@@ -10,5 +10,6 @@ namespace rigid_body_sim {
 std::unique_ptr<Integrator> makeExplicitEulerVelocity(Gyroscopic gyroscopic);
 std::unique_ptr<Integrator> makeSemiImplicitVelocity(Gyroscopic gyroscopic);
 std::unique_ptr<Integrator> makeSplit2(Gyroscopic gyroscopic);
+std::unique_ptr<Integrator> makeExact(Gyroscopic gyroscopic);
 
 }  // namespace rigid_body_sim

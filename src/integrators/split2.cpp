@@ -1,5 +1,5 @@
 #include "integrators/families.hpp"
-#include "integrators/kick.hpp"
+#include "integrators/kick_drift_kick.hpp"
 #include "rigid_body_sim/rotation.hpp"
 
 namespace rigid_body_sim {
@@ -48,51 +48,16 @@ Quaterniond freeAttitude(const Quaterniond& q_WB, const Vector3d& L_W, const Vec
   return renormalized(rotationExp(h * a2 * L_W) * q_WB * turn);
 }
 
-/// Without w x I w the angular velocity keeps its world components; L follows from it. Going from L
-/// to w and back each step costs 2.6e-16 of w a step, always to the same side.
-void freeSpinWithoutGyroscopicTerm(BodyState& body, const Vector3d& I, double h) {
-  const Vector3d w_WB = angularVelocity(body, I);
-  body.q_WB = renormalized(rotationExp(h * w_WB) * body.q_WB);
-  body.L_WBcm_W = body.q_WB * I.cwiseProduct(body.q_WB.conjugate() * w_WB);
-}
-
-template <Gyroscopic gyroscopic>
-void rotate(BodyState& body, const Vector3d& I, double h) {
-  if constexpr (gyroscopic == Gyroscopic::kOn)
-    body.q_WB = freeAttitude(body.q_WB, body.L_WBcm_W, I, h);
-  else
-    freeSpinWithoutGyroscopicTerm(body, I, h);
-}
-
-template <Gyroscopic gyroscopic>
-void drift(Bodies& bodies, double h) {
-  for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-    BodyState body = bodies.state(i);
-    body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
-    // Without spin, as a point mass always is, there is no rotation to compute.
-    if (!body.L_WBcm_W.isZero(0)) rotate<gyroscopic>(body, bodies.moments(i), h);
-    bodies.setState(i, body);
-  }
-}
-
-/// Half a kick, a whole drift, half a kick: second order under wrenches that depend on time and
-/// pose, first order under those that depend on velocities. The parabola of a constant force is
-/// exact, x += v h + a h^2/2.
-template <Gyroscopic gyroscopic>
-class Split2 : public Integrator {
- public:
-  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    if (!effects.empty()) kick(bodies, effects.evaluate(bodies, time_s), 0.5 * h);
-    drift<gyroscopic>(bodies, h);
-    if (!effects.empty()) kick(bodies, effects.evaluate(bodies, time_s + h), 0.5 * h);
+struct SplitRotation {
+  Quaterniond operator()(const BodyState& body, const Vector3d& I, double h) const {
+    return freeAttitude(body.q_WB, body.L_WBcm_W, I, h);
   }
 };
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeSplit2(Gyroscopic gyroscopic) {
-  if (gyroscopic == Gyroscopic::kOn) return std::make_unique<Split2<Gyroscopic::kOn>>();
-  return std::make_unique<Split2<Gyroscopic::kOff>>();
+  return makeKickDriftKick<SplitRotation>(gyroscopic);
 }
 
 }  // namespace rigid_body_sim
