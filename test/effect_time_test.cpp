@@ -20,7 +20,7 @@ class Recorder : public Effect {
 
 /// The times an effect is asked at in the step from t to t + h, by the method's formula.
 std::vector<double> timesOfStep(const std::string& integrator, double t, double h) {
-  if (integrator == "split2") return {t, t + h};
+  if (integrator == "split2" || integrator == "exact") return {t, t + h};
   return {t};
 }
 
