@@ -103,6 +103,8 @@ int main(int argc, char** argv) {
   try {
     rigid_body_sim::simulate(nh, private_nh, queue);
   } catch (const std::invalid_argument& error) {
+    // Ended while it started: ROS gave no parameters any more, which is nobody's mistake.
+    if (ros::isShuttingDown() || !ros::ok()) return 0;
     ROS_FATAL("%s", error.what());
     return 1;
   }
