@@ -90,10 +90,18 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
 }  // namespace
 }  // namespace rigid_body_sim
 
+volatile std::sig_atomic_t is_interrupted = 0;
+
+/// ROS looks at requests to end only once it has started, which is after the wait for a master.
+void interrupt(int) {
+  is_interrupted = 1;
+  if (!ros::isStarted()) std::_Exit(0);
+  ros::requestShutdown();
+}
+
 int main(int argc, char** argv) {
-  // ROS takes SIGINT over when it starts, which is after the wait for a master.
-  std::signal(SIGINT, [](int) { std::_Exit(0); });
-  ros::init(argc, argv, "rigid_body_sim");
+  std::signal(SIGINT, interrupt);
+  ros::init(argc, argv, "rigid_body_sim", ros::init_options::NoSigintHandler);
   if (!rigid_body_sim::waitForMaster()) return 0;
   ros::CallbackQueue queue;
   ros::NodeHandle nh;
@@ -103,8 +111,8 @@ int main(int argc, char** argv) {
   try {
     rigid_body_sim::simulate(nh, private_nh, queue);
   } catch (const std::invalid_argument& error) {
-    // Ended while it started: ROS gave no parameters any more, which is nobody's mistake.
-    if (ros::isShuttingDown() || !ros::ok()) return 0;
+    // Ended while it started: a signal cuts a question for parameters short, nobody's mistake.
+    if (is_interrupted || ros::isShuttingDown()) return 0;
     ROS_FATAL("%s", error.what());
     return 1;
   }
