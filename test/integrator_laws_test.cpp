@@ -109,7 +109,7 @@ double distance(const BodyState& a, const BodyState& b) {
 class IntegratorLaws : public testing::TestWithParam<IntegratorRow> {
  protected:
   std::unique_ptr<Integrator> make(Gyroscopic gyroscopic = Gyroscopic::kOn) const {
-    return GetParam().make(gyroscopic);
+    return GetParam().make({gyroscopic});
   }
 
   BodyState run(const reference::Case& one, const Effect* effect, double time_s, int steps) const {
@@ -363,7 +363,7 @@ TEST(Split2, GoesBackTheWayItCame) {
   const BodyState start = bodies.state(0);
   ActiveEffects effects;
   effects.add(&push);
-  const auto integrator = integratorNamed("split2").make(Gyroscopic::kOn);
+  const auto integrator = integratorNamed("split2").make({});
   const int steps = 500;
   for (int i = 0; i < steps; ++i) integrator->step(bodies, effects, i * 0.02, 0.02);
   EXPECT_GT(distance(bodies.state(0), start), 1);

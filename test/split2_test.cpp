@@ -19,7 +19,7 @@ Bodies bodiesOf(const reference::Case& one) {
 }
 
 void fly(Bodies& bodies, int steps) {
-  const auto integrator = integratorNamed("split2").make(Gyroscopic::kOn);
+  const auto integrator = integratorNamed("split2").make({});
   ActiveEffects none;
   for (int i = 0; i < steps; ++i) integrator->step(bodies, none, i * 0.02, 0.02);
 }

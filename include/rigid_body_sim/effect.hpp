@@ -28,6 +28,17 @@ class Effect {
 
   /// Adds its wrenches at `time_s` [s] to `wrenches`.
   virtual void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const = 0;
+
+  /// Whether its wrenches depend on velocities, as drag and damping do. Some integrators have a
+  /// lower order then, or refuse it.
+  virtual bool dependsOnVelocity() const { return false; }
+
+  /// The same effect on some of the bodies alone, whose places in the list become their new
+  /// indices. It acts on those of them that it acts on here; that may be none (bodyCount() 0). Null,
+  /// as by default, if it cannot be divided: its bodies act on each other.
+  virtual std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>&) const {
+    return nullptr;
+  }
 };
 
 /// Uniform gravity g_W [m/s^2] on the bodies with the given indices: f = m g.

@@ -33,6 +33,8 @@ inline std::string comFrameName(const std::string& body) { return body + "/com";
 struct Scene {
   std::int64_t step_ns = 20'000'000;
   std::string integrator = "split2";
+  int substeps = 1;          ///< steps of the integrator a tick
+  double tolerance = 1e-12;  ///< see IntegratorOptions
   Gyroscopic gyroscopic = Gyroscopic::kOn;
   std::vector<SceneBody> bodies;
   std::vector<std::shared_ptr<const Effect>> effects;

@@ -90,6 +90,7 @@ void requireRigid(const SceneBody& body) {
 
 Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
+  if (scene_.substeps <= 0) throw std::invalid_argument("the number of substeps must be positive");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
   requireUniqueFrames(scene_);
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
@@ -106,7 +107,7 @@ Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
     initial_.setState(i, state);
   }
   bodies_ = before_ = initial_;
-  integrator_ = integratorNamed(scene_.integrator).make(scene_.gyroscopic);
+  integrator_ = integratorNamed(scene_.integrator).make({scene_.gyroscopic, scene_.tolerance});
   for (const auto& effect : scene_.effects) {
     if (!effect) throw std::invalid_argument("an effect of the scene is null");
     active_.add(effect.get());
@@ -169,8 +170,10 @@ void Simulator::freezeNonFinite(const Bodies& before) {
 void Simulator::step() {
   copyState(bodies_, before_);
   latchInputs();
-  const double step_s = scene_.step_s();
-  integrator_->step(bodies_, active_, static_cast<double>(tick_) * step_s, step_s);
+  const double start_s = static_cast<double>(tick_) * scene_.step_s();
+  const double step_s = scene_.step_s() / scene_.substeps;
+  for (int i = 0; i < scene_.substeps; ++i)
+    integrator_->step(bodies_, active_, start_s + i * step_s, step_s);
   freezeNonFinite(before_);
   ++tick_;
   assert(allFinite(bodies_));

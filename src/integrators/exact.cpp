@@ -15,8 +15,8 @@ struct ExactRotation {
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeExact(Gyroscopic gyroscopic) {
-  return makeKickDriftKick<ExactRotation>(gyroscopic);
+std::unique_ptr<Integrator> makeExact(const IntegratorOptions& options) {
+  return makeKickDriftKick<ExactRotation>(options);
 }
 
 }  // namespace rigid_body_sim

@@ -7,9 +7,9 @@
 // The makers of all methods, for the registry; each family has its own source file.
 namespace rigid_body_sim {
 
-std::unique_ptr<Integrator> makeExplicitEulerVelocity(Gyroscopic gyroscopic);
-std::unique_ptr<Integrator> makeSemiImplicitVelocity(Gyroscopic gyroscopic);
-std::unique_ptr<Integrator> makeSplit2(Gyroscopic gyroscopic);
-std::unique_ptr<Integrator> makeExact(Gyroscopic gyroscopic);
+std::unique_ptr<Integrator> makeExplicitEulerVelocity(const IntegratorOptions& options);
+std::unique_ptr<Integrator> makeSemiImplicitVelocity(const IntegratorOptions& options);
+std::unique_ptr<Integrator> makeSplit2(const IntegratorOptions& options);
+std::unique_ptr<Integrator> makeExact(const IntegratorOptions& options);
 
 }  // namespace rigid_body_sim

@@ -21,8 +21,8 @@ class KickDriftKick : public Integrator {
 };
 
 template <class Rotation>
-std::unique_ptr<Integrator> makeKickDriftKick(Gyroscopic gyroscopic) {
-  if (gyroscopic == Gyroscopic::kOn)
+std::unique_ptr<Integrator> makeKickDriftKick(const IntegratorOptions& options) {
+  if (options.gyroscopic == Gyroscopic::kOn)
     return std::make_unique<KickDriftKick<Rotation, Gyroscopic::kOn>>();
   return std::make_unique<KickDriftKick<Rotation, Gyroscopic::kOff>>();
 }

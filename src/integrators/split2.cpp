@@ -56,8 +56,8 @@ struct SplitRotation {
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeSplit2(Gyroscopic gyroscopic) {
-  return makeKickDriftKick<SplitRotation>(gyroscopic);
+std::unique_ptr<Integrator> makeSplit2(const IntegratorOptions& options) {
+  return makeKickDriftKick<SplitRotation>(options);
 }
 
 }  // namespace rigid_body_sim

@@ -57,20 +57,20 @@ class VelocityEuler : public Integrator {
 };
 
 template <PoseMovesWith pose_moves_with>
-std::unique_ptr<Integrator> make(Gyroscopic gyroscopic) {
-  if (gyroscopic == Gyroscopic::kOn)
+std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
+  if (options.gyroscopic == Gyroscopic::kOn)
     return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOn>>();
   return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOff>>();
 }
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeExplicitEulerVelocity(Gyroscopic gyroscopic) {
-  return make<PoseMovesWith::kOldVelocity>(gyroscopic);
+std::unique_ptr<Integrator> makeExplicitEulerVelocity(const IntegratorOptions& options) {
+  return make<PoseMovesWith::kOldVelocity>(options);
 }
 
-std::unique_ptr<Integrator> makeSemiImplicitVelocity(Gyroscopic gyroscopic) {
-  return make<PoseMovesWith::kNewVelocity>(gyroscopic);
+std::unique_ptr<Integrator> makeSemiImplicitVelocity(const IntegratorOptions& options) {
+  return make<PoseMovesWith::kNewVelocity>(options);
 }
 
 }  // namespace rigid_body_sim

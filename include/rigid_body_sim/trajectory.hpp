@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rigid_body_sim/scene.hpp"
+
+namespace rigid_body_sim {
+
+/// A way to step a scene.
+struct Method {
+  std::string integrator = "exact";
+  int substeps = 1;          ///< a tick
+  double tolerance = 1e-12;  ///< see IntegratorOptions
+};
+
+/// `exact`, or `rk4 x 3` with substeps.
+std::string toText(const Method& method);
+
+/// The states of a scene's bodies at the ticks 0, every, 2 every ...
+struct Trajectory {
+  Tick every = 1;
+  std::vector<Bodies> samples;
+};
+
+/// Flies a scene from its start, without inputs, by one method for all bodies.
+/// @param ticks a multiple of `every`
+/// @throws std::invalid_argument as Simulator.
+Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every);
+
+/// How far one pose is from another.
+struct Deviation {
+  double attitude_rad = 0;
+  double position_m = 0;
+};
+
+/// Componentwise the larger; a NaN counts as infinite.
+Deviation worse(const Deviation& a, const Deviation& b);
+
+/// Of one body between two samples.
+Deviation deviation(const Bodies& a, const Bodies& b, Eigen::Index body);
+
+/// The largest of any body at any sample; both trajectories have the same samples.
+Deviation deviation(const Trajectory& a, const Trajectory& b);
+
+/// A trajectory to hold others against.
+struct TrueTrajectory {
+  Trajectory trajectory;
+  Deviation doubt;  ///< how far a second way to the same answer ends from it, at worst
+  std::string how;  ///< both ways in words
+};
+
+/// The best that is known of a flight: `exact` where halving its step changes no more than rounding,
+/// else the adaptive method; whichever is in less doubt.
+TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every);
+
+}  // namespace rigid_body_sim

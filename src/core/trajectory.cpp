@@ -1,0 +1,82 @@
+#include "rigid_body_sim/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "rigid_body_sim/rotation.hpp"
+#include "rigid_body_sim/simulator.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+double larger(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
+  return std::max(a, b);
+}
+
+
+TrueTrajectory comparedWith(Trajectory best, const Trajectory& other, std::string how) {
+  const Deviation doubt = deviation(best, other);
+  return {std::move(best), doubt, std::move(how)};
+}
+
+/// Doubt in one number: a radian counts as much as a metre.
+double size(const Deviation& doubt) { return larger(doubt.attitude_rad, doubt.position_m); }
+
+}  // namespace
+
+std::string toText(const Method& method) {
+  if (method.substeps == 1) return method.integrator;
+  return method.integrator + " x " + std::to_string(method.substeps);
+}
+
+Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every) {
+  if (every <= 0 || ticks < 0 || ticks % every != 0)
+    throw std::invalid_argument("the ticks of a trajectory must be a multiple of its samples'");
+  scene.integrator = method.integrator;
+  scene.substeps = method.substeps;
+  scene.tolerance = method.tolerance;
+  Simulator simulator(std::move(scene));
+  Trajectory trajectory = {every, {simulator.bodies()}};
+  for (Tick tick = 1; tick <= ticks; ++tick) {
+    simulator.step();
+    if (tick % every == 0) trajectory.samples.push_back(simulator.bodies());
+  }
+  return trajectory;
+}
+
+Deviation worse(const Deviation& a, const Deviation& b) {
+  return {larger(a.attitude_rad, b.attitude_rad), larger(a.position_m, b.position_m)};
+}
+
+Deviation deviation(const Bodies& a, const Bodies& b, Eigen::Index body) {
+  const BodyState one = a.state(body), other = b.state(body);
+  return {rotationLog(one.q_WB.conjugate() * other.q_WB).norm(),
+          (one.p_WBcm - other.p_WBcm).norm()};
+}
+
+Deviation deviation(const Trajectory& a, const Trajectory& b) {
+  if (a.every != b.every || a.samples.size() != b.samples.size())
+    throw std::invalid_argument("the trajectories have different samples");
+  Deviation worst;
+  for (std::size_t k = 0; k < a.samples.size(); ++k)
+    for (Eigen::Index i = 0; i < a.samples[k].count(); ++i)
+      worst = worse(worst, deviation(a.samples[k], b.samples[k], i));
+  return worst;
+}
+
+TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every) {
+  TrueTrajectory best =
+      comparedWith(fly(scene, {"exact"}, ticks, every), fly(scene, {"exact", 2}, ticks, every),
+                   "exact, against itself in half steps");
+  const TrueTrajectory adaptive =
+      comparedWith(fly(scene, {"adaptive", 1, 1e-14}, ticks, every),
+                   fly(scene, {"adaptive", 1, 1e-12}, ticks, every),
+                   "adaptive with a tolerance of 1e-14, against 1e-12");
+  return size(adaptive.doubt) < size(best.doubt) ? adaptive : best;
+}
+
+}  // namespace rigid_body_sim
