@@ -1,0 +1,167 @@
+#include "tools/accuracy_report/digest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "rigid_body_sim/rotation.hpp"
+
+namespace rigid_body_sim::report {
+namespace {
+
+/// What engines commonly do: the yardstick.
+constexpr const char* kYardsticks[] = {"semi_implicit", "semi_implicit_velocity"};
+
+std::string number(double value, int digits = 3) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+/// 12 ns, 3.4 us, 1.2 ms, 5 s.
+std::string duration(double ns) {
+  if (ns < 1e3) return number(ns) + " ns";
+  if (ns < 1e6) return number(ns * 1e-3) + " us";
+  if (ns < 1e9) return number(ns * 1e-6) + " ms";
+  return number(ns * 1e-9) + " s";
+}
+
+std::string unit(const Report& report) { return report.rotates ? " rad" : " m"; }
+
+/// The rung's rows that were flown, from the crudest.
+std::vector<const Row*> flownRows(const Report& report, const std::string& rung) {
+  std::vector<const Row*> rows;
+  for (const Row& row : report.rows)
+    if (row.method.integrator == rung && row.outcome == Outcome::kFlown) rows.push_back(&row);
+  return rows;
+}
+
+const Row* cheapestWithin(const std::vector<const Row*>& rows, const Report& report,
+                          double tolerance) {
+  const Row* cheapest = nullptr;
+  for (const Row* row : rows)
+    if (errorOf(report, *row) <= tolerance &&
+        (!cheapest || row->cost.median_ns < cheapest->cost.median_ns))
+      cheapest = row;
+  return cheapest;
+}
+
+struct Yardstick {
+  std::string rung;  ///< empty: none was flown
+  double rounding;   ///< of its finest flight
+};
+
+Yardstick yardstickOf(const Report& report) {
+  for (const char* name : kYardsticks) {
+    const std::vector<const Row*> rows = flownRows(report, name);
+    if (!rows.empty()) return {name, roundingOf(report, rows.back()->method)};
+  }
+  return {};
+}
+
+std::string onRounding(const Extrapolation& needed, double tolerance) {
+  if (std::isnan(needed.rounding)) return "; rounding is not counted in this";
+  const std::string from_to =
+      number(needed.rounding, 1) + " to " + number(needed.rounding_sum, 1) + " rad";
+  if (needed.rounding > tolerance)
+    return "; but rounding alone would make " + from_to +
+           " in so many steps: no number of substeps gets there";
+  if (needed.rounding_sum > tolerance)
+    return "; rounding alone would make " + from_to +
+           " in so many steps, so it is doubtful whether any number of substeps gets there";
+  return "; rounding would make at most " + number(needed.rounding_sum, 1) + " rad of it";
+}
+
+/// What the yardstick would take instead of `chosen`.
+std::string comparison(const Report& report, const Row& chosen, const Yardstick& yardstick,
+                       double tolerance) {
+  const std::string& rung = yardstick.rung;
+  if (rung.empty() || rung == chosen.method.integrator) return {};
+  const auto times = [&](double ns) { return number(ns / chosen.cost.median_ns, 2) + " times"; };
+  if (const Row* row = cheapestWithin(flownRows(report, rung), report, tolerance))
+    return " " + rung + " needs " + std::to_string(row->method.substeps) + " substeps: " +
+           times(row->cost.median_ns) + " the time.";
+  const auto needed = extrapolate(report, rung, tolerance, yardstick.rounding);
+  if (!needed)
+    return " No number of substeps that was tried brings " + rung +
+           " there, and its error does not yet fall as its order says.";
+  const Row& finest = *flownRows(report, rung).back();
+  return " " + rung + " would need " + number(needed->substeps, 2) + " substeps, " +
+         times(needed->cost_ns) + " the time (extrapolated from " +
+         number(errorOf(report, finest), 2) + unit(report) + " at " +
+         std::to_string(finest.method.substeps) + ", where its error falls as n^-" +
+         number(needed->slope, 2) + onRounding(*needed, tolerance) + ").";
+}
+
+std::string sentence(const Report& report, const Yardstick& yardstick, double tolerance) {
+  const std::string goal = number(tolerance) + unit(report) + ": ";
+  const Row* chosen = cheapestWithin(report, tolerance);
+  if (!chosen) return goal + "nothing that was tried gets there.";
+  return goal + nameOf(*chosen) + ", " + duration(chosen->cost.median_ns) +
+         " a body and tick, " + number(realTimeFactor(report, *chosen), 2) + " times real time." +
+         comparison(report, *chosen, yardstick, tolerance);
+}
+
+}  // namespace
+
+const Row* cheapestWithin(const Report& report, double tolerance) {
+  std::vector<const Row*> rows;
+  for (const Row& row : report.rows)
+    if (row.outcome == Outcome::kFlown) rows.push_back(&row);
+  return cheapestWithin(rows, report, tolerance);
+}
+
+double roundingOf(const Report& report, const Method& method) {
+  if (!report.scene.effects.empty() || !report.rotates)
+    return std::numeric_limits<double>::quiet_NaN();
+  Scene turned = report.scene;
+  const Quaterniond q_VW = Quaterniond(0.43, -0.51, 0.62, 0.41).normalized();  // no special axis
+  for (SceneBody& body : turned.bodies) {
+    body.X_WL = Eigen::Isometry3d(q_VW) * body.X_WL;
+    body.v_WBcm = q_VW * body.v_WBcm;
+  }
+  const Tick every = report.truth.trajectory.every;
+  const Trajectory one = fly(report.scene, method, report.ticks, every);
+  const Trajectory other = fly(turned, method, report.ticks, every);
+  double largest = 0;
+  for (std::size_t k = 0; k < one.samples.size(); ++k) {
+    for (Eigen::Index i = 0; i < one.samples[k].count(); ++i) {
+      const Quaterniond q_WB = one.samples[k].state(i).q_WB;
+      const Quaterniond q_VB = other.samples[k].state(i).q_WB;
+      largest = std::max(largest, rotationLog((q_VW * q_WB).conjugate() * q_VB).norm());
+    }
+  }
+  return largest / std::sqrt(2);
+}
+
+std::optional<Extrapolation> extrapolate(const Report& report, const std::string& rung,
+                                         double tolerance, double rounding) {
+  const std::vector<const Row*> rows = flownRows(report, rung);
+  if (rows.size() < 2 || rows.back()->adapts) return std::nullopt;
+  const Row& fine = *rows.back();
+  const Row& coarse = *rows[rows.size() - 2];
+  const double order = integratorNamed(rung).order;
+  const double error = errorOf(report, fine);
+  const double slope = std::log(errorOf(report, coarse) / error) /
+                       std::log(static_cast<double>(fine.method.substeps) / coarse.method.substeps);
+  if (!(std::abs(slope - order) < 0.3)) return std::nullopt;
+  Extrapolation needed;
+  needed.slope = slope;
+  needed.substeps = fine.method.substeps * std::pow(error / tolerance, 1 / order);
+  const double more = needed.substeps / fine.method.substeps;
+  needed.cost_ns = fine.cost.median_ns * more;
+  needed.rounding = rounding * std::sqrt(more);
+  needed.rounding_sum = rounding * more;
+  return needed;
+}
+
+std::vector<std::string> digest(const Report& report) {
+  const Yardstick yardstick = yardstickOf(report);
+  std::vector<std::string> sentences;
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
+    if (tolerance > doubtOf(report)) sentences.push_back(sentence(report, yardstick, tolerance));
+  return sentences;
+}
+
+}  // namespace rigid_body_sim::report

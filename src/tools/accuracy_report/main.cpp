@@ -1,0 +1,161 @@
+/// Flies a case or a scene with every integrator and step size, and says what accuracy costs.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "reference/cases.hpp"
+#include "tools/accuracy_report/output.hpp"
+
+namespace rigid_body_sim::report {
+namespace {
+
+struct Arguments {
+  std::string scene_file;
+  std::string case_name;
+  std::string output;
+  bool has_plots = true;
+  bool counts_instructions = false;
+  bool lists_cases = false;
+  Tick only_step = 0;
+  Plan plan;
+};
+
+std::string ownPath() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+void listCases() {
+  for (const reference::Case& one : reference::cases())
+    std::cout << one.name << "\n    I = (" << one.I_BBcm_B.transpose() << ") kg m^2, w = ("
+              << one.w_WB_B.transpose() << ") rad/s\n    " << one.source << '\n';
+}
+
+/// How this program is run again under valgrind.
+StepCommand stepCommand(const Arguments& arguments) {
+  const std::string scene = arguments.scene_file;
+  const std::string name = arguments.case_name;
+  return [scene, name](const Method& method, Tick ticks) {
+    std::ostringstream tolerance;
+    tolerance << "--tolerances=" << method.tolerance;
+    return std::vector<std::string>{ownPath(),
+                                    "--only-step=" + std::to_string(ticks),
+                                    "--integrators=" + method.integrator,
+                                    "--substeps=" + std::to_string(method.substeps),
+                                    tolerance.str(),
+                                    scene.empty() ? "--case=" + name : scene};
+  };
+}
+
+/// A bar on a terminal; nothing into files.
+void showProgress(const std::string& what, double part) {
+  static const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  constexpr int kWidth = 40;
+  if (!is_terminal) return;
+  const int done = static_cast<int>(part * kWidth);
+  const std::string bar = std::string(done, '#') + std::string(kWidth - done, '.');
+  std::fprintf(stderr, "\r[%s] %3d %% %-40.40s", bar.c_str(), static_cast<int>(100 * part),
+               what.c_str());
+  if (part >= 1) std::fprintf(stderr, "\r%*s\r", kWidth + 50, "");
+}
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  Plan& plan = arguments.plan;
+  app.add_option("scene", arguments.scene_file, "YAML file of a scene, as the simulator takes it");
+  app.add_option("--case", arguments.case_name, "a case of the library instead of a scene");
+  app.add_flag("--list", arguments.lists_cases, "list the cases and end");
+  app.add_option("--over", plan.over_s, "simulated time [s], default 60")
+      ->check(CLI::Range(1e-6, 1e9));
+  app.add_option("--substeps", plan.substeps,
+                 "numbers of substeps a tick, ascending, default 1,2,4,8,16,32,64,256,1024,4096; a "
+                 "rung stops at the first that the reference cannot tell from the truth")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1 << 24));
+  app.add_option("--tolerances", plan.tolerances,
+                 "of rungs that adapt their step, default 1e-4,1e-6,1e-8,1e-10,1e-12")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-16, 1.0));
+  app.add_option("--integrators", plan.rungs, "the rungs, default all")->delimiter(',');
+  app.add_option("--repeats", plan.repeats, "timed runs of each row, the median counts; default 7")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--longest", plan.longest_s, "wall time a flight may take [s], default 10");
+  app.add_flag("--instructions", arguments.counts_instructions,
+               "count instructions with valgrind; some seconds a row");
+  app.add_option("--output", arguments.output, "folder for CSV files and plots; default none");
+  app.add_flag("!--no-plots", arguments.has_plots, "write the CSV files only");
+  app.add_option("--only-step", arguments.only_step,
+                 "step the one method so many ticks and end, for valgrind or perf to look at");
+}
+
+void readScene(Arguments& arguments) {
+  if (arguments.scene_file.empty() == arguments.case_name.empty())
+    throw std::invalid_argument("give either a scene file or --case; --list names the cases");
+  if (!arguments.case_name.empty()) {
+    arguments.plan.name = arguments.case_name;
+    arguments.plan.scene = sceneOfCase(arguments.case_name);
+  } else {
+    arguments.plan.name = std::filesystem::path(arguments.scene_file).stem().string();
+    arguments.plan.scene = readSceneFile(arguments.scene_file);
+  }
+}
+
+void fillDefaults(Plan& plan) {
+  if (plan.substeps.empty()) plan.substeps = {1, 2, 4, 8, 16, 32, 64, 256, 1024, 4096};
+  if (plan.tolerances.empty()) plan.tolerances = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+}
+
+void onlyStep(const Arguments& arguments) {
+  const Plan& plan = arguments.plan;
+  if (plan.rungs.size() != 1) throw std::invalid_argument("--only-step wants one integrator");
+  step(plan.scene, {plan.rungs.front(), plan.substeps.front(), plan.tolerances.front()},
+       arguments.only_step);
+}
+
+/// Hands over to the script, which stands beside this program; it says where the pictures are.
+int plot(const std::string& folder) {
+  const std::string script = std::filesystem::path(ownPath()).replace_filename("plot_accuracy");
+  execl(script.c_str(), script.c_str(), folder.c_str(), nullptr);
+  std::cerr << "no plots: " << script << " cannot be run" << std::endl;
+  return 1;
+}
+
+int run(Arguments& arguments) {
+  if (arguments.lists_cases) return listCases(), 0;
+  readScene(arguments);
+  fillDefaults(arguments.plan);
+  if (arguments.only_step > 0) return onlyStep(arguments), 0;
+  if (arguments.counts_instructions)
+    arguments.plan.count_instructions_with = stepCommand(arguments);
+  const Report report = make(arguments.plan, showProgress);
+  showProgress("", 1);
+  print(report, std::cout);
+  if (arguments.output.empty()) return 0;
+  const std::string folder = std::filesystem::absolute(arguments.output).string();
+  writeCsv(report, folder);
+  std::cout << "\nNumbers: " << folder << "/*.csv" << std::endl;
+  return arguments.has_plots ? plot(folder) : 0;
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::report
+
+int main(int argc, char** argv) {
+  rigid_body_sim::report::Arguments arguments;
+  CLI::App app(
+      "Flies a scene with every integrator and several step sizes, and says what accuracy costs in "
+      "time.");
+  rigid_body_sim::report::addOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << std::endl;
+    return 1;
+  }
+}
