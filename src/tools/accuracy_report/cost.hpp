@@ -36,8 +36,8 @@ void step(const Scene& scene, const Method& method, Tick ticks);
 /// The command line of a program that steps the scene by `method` so often and ends.
 using StepCommand = std::function<std::vector<std::string>(const Method& method, Tick ticks)>;
 
-/// Instructions of a body's tick, by valgrind's callgrind: 300 ticks more than 100, so that what the
-/// program does besides is not in it. NaN if there is no valgrind or it fails.
+/// Instructions of a body's tick, by valgrind's callgrind: 300 ticks more than 100, so that what
+/// the program does besides is not in it. NaN if there is no valgrind or it fails.
 double instructionsATick(std::size_t bodies, const Method& method, const StepCommand& command);
 
 }  // namespace rigid_body_sim::report

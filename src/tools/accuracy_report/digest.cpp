@@ -62,8 +62,9 @@ Yardstick yardstickOf(const Report& report) {
 
 std::string onRounding(const Extrapolation& needed, double tolerance) {
   if (std::isnan(needed.rounding)) return "; rounding is not counted in this";
-  const std::string from_to =
-      number(needed.rounding, 1) + " to " + number(needed.rounding_sum, 1) + " rad";
+  constexpr double kHalfTurn = 3.1;  // [rad] no error is larger
+  const std::string from_to = number(std::min(needed.rounding, kHalfTurn), 1) + " to " +
+                              number(std::min(needed.rounding_sum, kHalfTurn), 1) + " rad";
   if (needed.rounding > tolerance)
     return "; but rounding alone would make " + from_to +
            " in so many steps: no number of substeps gets there";
@@ -80,8 +81,8 @@ std::string comparison(const Report& report, const Row& chosen, const Yardstick&
   if (rung.empty() || rung == chosen.method.integrator) return {};
   const auto times = [&](double ns) { return number(ns / chosen.cost.median_ns, 2) + " times"; };
   if (const Row* row = cheapestWithin(flownRows(report, rung), report, tolerance))
-    return " " + rung + " needs " + std::to_string(row->method.substeps) + " substeps: " +
-           times(row->cost.median_ns) + " the time.";
+    return " " + rung + " needs " + std::to_string(row->method.substeps) +
+           " substeps: " + times(row->cost.median_ns) + " the time.";
   const auto needed = extrapolate(report, rung, tolerance, yardstick.rounding);
   if (!needed)
     return " No number of substeps that was tried brings " + rung +
@@ -98,8 +99,8 @@ std::string sentence(const Report& report, const Yardstick& yardstick, double to
   const std::string goal = number(tolerance) + unit(report) + ": ";
   const Row* chosen = cheapestWithin(report, tolerance);
   if (!chosen) return goal + "nothing that was tried gets there.";
-  return goal + nameOf(*chosen) + ", " + duration(chosen->cost.median_ns) +
-         " a body and tick, " + number(realTimeFactor(report, *chosen), 2) + " times real time." +
+  return goal + nameOf(*chosen) + ", " + duration(chosen->cost.median_ns) + " a body and tick, " +
+         number(realTimeFactor(report, *chosen), 2) + " times real time." +
          comparison(report, *chosen, yardstick, tolerance);
 }
 

@@ -41,10 +41,9 @@ double relative(double difference, double scale) {
 Errors errorsBetween(const Bodies& flown, const Bodies& truth, const Scales& scales) {
   Errors worst;
   for (Eigen::Index i = 0; i < truth.count(); ++i) {
-    const Errors one = {
-        deviation(flown, truth, i),
-        relative(energyOf(flown, i) - energyOf(truth, i), scales.energy(i)),
-        relative(momentumOf(flown, i) - momentumOf(truth, i), scales.momentum(i))};
+    const Errors one = {deviation(flown, truth, i),
+                        relative(energyOf(flown, i) - energyOf(truth, i), scales.energy(i)),
+                        relative(momentumOf(flown, i) - momentumOf(truth, i), scales.momentum(i))};
     worst = worse(worst, one);
   }
   return worst;

@@ -140,6 +140,16 @@ int run(Arguments& arguments) {
   return arguments.has_plots ? plot(folder) : 0;
 }
 
+/// roslaunch gives every program ROS's own arguments, `__name:=...`; this one is no node.
+std::vector<const char*> withoutRos(int argc, char** argv) {
+  std::vector<const char*> words;
+  for (int i = 0; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.rfind("__", 0) != 0 || word.find(":=") == std::string::npos) words.push_back(argv[i]);
+  }
+  return words;
+}
+
 }  // namespace
 }  // namespace rigid_body_sim::report
 
@@ -150,7 +160,8 @@ int main(int argc, char** argv) {
       "time.");
   rigid_body_sim::report::addOptions(app, arguments);
   try {
-    app.parse(argc, argv);
+    const std::vector<const char*> words = rigid_body_sim::report::withoutRos(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
     return run(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

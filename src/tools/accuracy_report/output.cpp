@@ -156,14 +156,13 @@ void writeCase(const Report& report, const std::string& folder) {
   const Bodies& start = report.truth.trajectory.samples.front();
   const Eigen::Vector3d I = start.moments(shown);
   file << "key,value\n"
-       << "name," << quoted(report.name) << "\nbodies," << report.scene.bodies.size()
-       << "\nstep_s," << csv(report.scene.step_s()) << "\nover_s," << csv(report.over_s)
-       << "\nunit," << (report.rotates ? "rad" : "m") << "\ndoubt," << csv(doubtOf(report))
-       << "\nhow," << quoted(report.truth.how) << "\nbody,"
-       << quoted(report.scene.bodies[shown].name) << "\nangular_speed_rad_s,"
-       << csv(angularVelocityInBody(start.state(shown), I).norm()) << "\nmass_kg,"
-       << csv(start.mass(shown)) << "\nI1_kg_m2," << csv(I(0)) << "\nI2_kg_m2," << csv(I(1))
-       << "\nI3_kg_m2," << csv(I(2)) << "\n";
+       << "name," << quoted(report.name) << "\nbodies," << report.scene.bodies.size() << "\nstep_s,"
+       << csv(report.scene.step_s()) << "\nover_s," << csv(report.over_s) << "\nunit,"
+       << (report.rotates ? "rad" : "m") << "\ndoubt," << csv(doubtOf(report)) << "\nhow,"
+       << quoted(report.truth.how) << "\nbody," << quoted(report.scene.bodies[shown].name)
+       << "\nangular_speed_rad_s," << csv(angularVelocityInBody(start.state(shown), I).norm())
+       << "\nmass_kg," << csv(start.mass(shown)) << "\nI1_kg_m2," << csv(I(0)) << "\nI2_kg_m2,"
+       << csv(I(1)) << "\nI3_kg_m2," << csv(I(2)) << "\n";
   for (const std::string& sentence : digest(report)) file << "digest," << quoted(sentence) << "\n";
   close(file, folder);
 }
@@ -224,12 +223,13 @@ void writeFlights(const Report& report, const std::string& folder) {
 
 void print(const Report& report, std::ostream& out) {
   out << shortSummary(report) << '\n'
-      << wrapped("Reference: " + report.truth.how + ", where the two differ by at most " +
-                 cell(report.truth.doubt.attitude_rad) + " rad and " +
-                 cell(report.truth.doubt.position_m) +
-                 " m. Below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
-                 "are relative to the reference's. The time is all that a tick takes, the median of "
-                 "runs in turn.")
+      << wrapped(
+             "Reference: " + report.truth.how + ", where the two differ by at most " +
+             cell(report.truth.doubt.attitude_rad) + " rad and " +
+             cell(report.truth.doubt.position_m) +
+             " m. Below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
+             "are relative to the reference's. The time is all that a tick takes, the median of "
+             "runs in turn.")
       << '\n';
   std::vector<Cells> rows = kTitles;
   for (const Row& row : report.rows) rows.push_back(cellsOf(report, row));

@@ -127,10 +127,9 @@ void timeRows(Report& report, const Plan& plan, const Progress& progress) {
     timed.push_back({row.method, timedTicks(row, report)});
   }
   const double runs = static_cast<double>(timed.size()) * plan.repeats;
-  const std::vector<Cost> costs =
-      costsOf(report.scene, timed, plan.repeats, [&](std::size_t done) {
-        progress("timing", 0.8 + 0.2 * static_cast<double>(done) / runs);
-      });
+  const std::vector<Cost> costs = costsOf(report.scene, timed, plan.repeats, [&](std::size_t done) {
+    progress("timing", 0.8 + 0.2 * static_cast<double>(done) / runs);
+  });
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cost = costs[k];
 }
 
@@ -147,9 +146,8 @@ Report begin(const Plan& plan) {
   report.truth = flyTruly(plan.scene, report.ticks, every);
   if (!std::isfinite(doubtOf(report)))
     throw std::invalid_argument("nothing is known of this flight: the reference is infinite");
-  report.rotates =
-      std::any_of(plan.scene.bodies.begin(), plan.scene.bodies.end(),
-                  [](const SceneBody& body) { return !body.is_point_mass; });
+  report.rotates = std::any_of(plan.scene.bodies.begin(), plan.scene.bodies.end(),
+                               [](const SceneBody& body) { return !body.is_point_mass; });
   return report;
 }
 

@@ -15,11 +15,11 @@ struct Plan {
   std::string name;  ///< of the case or scene
   Scene scene;
   double over_s = 60;
-  std::vector<int> substeps;        ///< ascending
-  std::vector<double> tolerances;   ///< descending; for methods that adapt their step
-  std::vector<std::string> rungs;   ///< names of integrators; empty: all
-  int repeats = 7;                  ///< timed runs of each method
-  double longest_s = 10;            ///< of wall time that one flight may take
+  std::vector<int> substeps;            ///< ascending
+  std::vector<double> tolerances;       ///< descending; for methods that adapt their step
+  std::vector<std::string> rungs;       ///< names of integrators; empty: all
+  int repeats = 7;                      ///< timed runs of each method
+  double longest_s = 10;                ///< of wall time that one flight may take
   StepCommand count_instructions_with;  ///< empty: instructions are not counted
 };
 
@@ -35,7 +35,7 @@ struct Row {
   double evaluations = std::numeric_limits<double>::quiet_NaN();   ///< of the effects, a tick
   double instructions = std::numeric_limits<double>::quiet_NaN();  ///< a body and tick; NaN: not
                                                                    ///< counted
-  Cost cost;                ///< of a body's tick
+  Cost cost;                                                       ///< of a body's tick
   bool is_on_front = false;  ///< no cheaper method has a smaller error
 };
 
