@@ -29,6 +29,10 @@ std::string duration(double ns) {
 
 std::string unit(const Report& report) { return report.rotates ? " rad" : " m"; }
 
+std::string substeps(int count) {
+  return count == 1 ? "1 substep" : std::to_string(count) + " substeps";
+}
+
 /// The rung's rows that were flown, from the crudest.
 std::vector<const Row*> flownRows(const Report& report, const std::string& rung) {
   std::vector<const Row*> rows;
@@ -81,8 +85,7 @@ std::string comparison(const Report& report, const Row& chosen, const Yardstick&
   if (rung.empty() || rung == chosen.method.integrator) return {};
   const auto times = [&](double ns) { return number(ns / chosen.cost.median_ns, 2) + " times"; };
   if (const Row* row = cheapestWithin(flownRows(report, rung), report, tolerance))
-    return " " + rung + " needs " + std::to_string(row->method.substeps) +
-           " substeps: " + times(row->cost.median_ns) + " the time.";
+    return " " + rung + " needs " + substeps(row->method.substeps) + ": " + times(row->cost.median_ns) + " the time.";
   const auto needed = extrapolate(report, rung, tolerance, yardstick.rounding);
   if (!needed)
     return " No number of substeps that was tried brings " + rung +

@@ -224,10 +224,10 @@ void writeFlights(const Report& report, const std::string& folder) {
 void print(const Report& report, std::ostream& out) {
   out << shortSummary(report) << '\n'
       << wrapped(
-             "Reference: " + report.truth.how + ", where the two differ by at most " +
+             "Reference: " + report.truth.how + ". In doubt by at most " +
              cell(report.truth.doubt.attitude_rad) + " rad and " +
              cell(report.truth.doubt.position_m) +
-             " m. Below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
+             " m: below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
              "are relative to the reference's. The time is all that a tick takes, the median of "
              "runs in turn.")
       << '\n';

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "reference/cases.hpp"
+#include "tools/accuracy_report/truth.hpp"
 
 namespace rigid_body_sim::report {
 namespace {
@@ -143,7 +144,7 @@ Report begin(const Plan& plan) {
   const Tick every = std::max<Tick>(1, wanted / kSamples);
   report.ticks = (wanted + every - 1) / every * every;
   report.over_s = static_cast<double>(report.ticks) * step_s;
-  report.truth = flyTruly(plan.scene, report.ticks, every);
+  report.truth = bestKnown(plan.scene, report.ticks, every);
   if (!std::isfinite(doubtOf(report)))
     throw std::invalid_argument("nothing is known of this flight: the reference is infinite");
   report.rotates = std::any_of(plan.scene.bodies.begin(), plan.scene.bodies.end(),

@@ -1,0 +1,69 @@
+#include "tools/accuracy_report/truth.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "reference/flight.hpp"
+#include "tools/accuracy_report/errors.hpp"
+
+namespace rigid_body_sim::report {
+namespace {
+
+/// [rad] of rotation in one piece of the third way. A piece ends in doubles, so few are better; but
+/// the way's error grows faster than a piece, and 1e-9 is refused.
+constexpr double kPieceTurn = 5;
+constexpr double kMostTurns = 1e4;  // [rad] of all bodies together: some seconds
+
+/// Where the true flight is compared: at every so manieth sample, at least one.
+std::size_t samplesAPiece(const Trajectory& truth, const Scene& scene, double angular_speed) {
+  const double sample_s = static_cast<double>(truth.every) * scene.step_s();
+  const double samples = kPieceTurn / std::max(angular_speed, 1e-9) / sample_s;
+  return static_cast<std::size_t>(
+      std::max(1.0, std::min(samples, static_cast<double>(truth.samples.size() - 1))));
+}
+
+/// The largest difference of a body to its flight from the start in pieces of so many samples.
+Deviation differenceOf(const Trajectory& truth, const Scene& scene, Eigen::Index body,
+                       std::size_t piece) {
+  const Bodies& start = truth.samples.front();
+  Bodies flown = start;
+  const double sample_s = static_cast<double>(truth.every) * scene.step_s();
+  Deviation worst;
+  for (std::size_t k = piece; k < truth.samples.size(); k += piece) {
+    const reference::Flight flight =
+        reference::fly(flown.state(body), start.mass(body), start.moments(body), reference::nothing,
+                       static_cast<double>(piece) * sample_s);
+    flown.setState(body, flight.end);
+    worst = worse(worst, deviation(flown, truth.samples[k], body));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TrueTrajectory bestKnown(const Scene& scene, Tick ticks, Tick every) {
+  TrueTrajectory truth = flyTruly(scene, ticks, every);
+  const double angular_speed = largestAngularSpeed(truth.trajectory);
+  const double time_s = static_cast<double>(ticks) * scene.step_s();
+  const bool is_free = scene.effects.empty() && scene.gyroscopic == Gyroscopic::kOn;
+  if (!is_free || angular_speed * time_s * static_cast<double>(scene.bodies.size()) > kMostTurns)
+    return truth;
+  const std::size_t piece = samplesAPiece(truth.trajectory, scene, angular_speed);
+  Deviation difference;
+  try {
+    for (Eigen::Index i = 0; i < truth.trajectory.samples.front().count(); ++i)
+      difference = worse(difference, differenceOf(truth.trajectory, scene, i, piece));
+  } catch (const std::runtime_error&) {
+    return truth;  // the third way does not converge here: it says nothing
+  }
+  truth.doubt = worse(truth.doubt, difference);
+  std::ostringstream words;
+  words.precision(2);
+  words << truth.how << "; and against order 16 in extended precision, " << difference.attitude_rad
+        << " rad away";
+  truth.how = words.str();
+  return truth;
+}
+
+}  // namespace rigid_body_sim::report

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "rigid_body_sim/trajectory.hpp"
+
+namespace rigid_body_sim::report {
+
+/// flyTruly(); and of bodies that fly free, a third way is flown that shares no formula with the
+/// integrators (reference/flight.hpp), and its difference counts to the doubt: what both of the
+/// others do wrong in the same way shows there.
+TrueTrajectory bestKnown(const Scene& scene, Tick ticks, Tick every);
+
+}  // namespace rigid_body_sim::report

@@ -1,0 +1,152 @@
+// accuracy_report and plot_accuracy as their user has them.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "child_process.hpp"
+#include "generic.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kReport = PROGRAM_DIR "/accuracy_report";
+const std::string kPlot = PROGRAM_DIR "/plot_accuracy";
+
+struct Ended {
+  int code;
+  std::string said;
+};
+
+Ended run(const std::vector<std::string>& command, double timeout_s = 60) {
+  ChildProcess child(command);
+  const int code = child.exitCode(timeout_s);
+  return {code, child.said()};
+}
+
+/// A folder of its own, gone afterwards.
+class AccuracyProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string scene(const std::string& yaml) const {
+    const std::string path = folder_ + "/my_scene.yaml";
+    std::ofstream(path) << yaml;
+    return path;
+  }
+
+  std::string folder_;
+};
+
+/// Of a picture: an empty figure has a handful; the least here, with few lines, has 200.
+int coloursOf(const std::string& png) {
+  const Ended counted = run({"/usr/bin/convert", png, "-format", "%k", "info:"});
+  EXPECT_EQ(counted.code, 0) << counted.said;
+  return std::atoi(counted.said.c_str());
+}
+
+TEST_F(AccuracyProgram, ReportsACaseAndDrawsIt) {
+  const Ended ended = run({kReport, "--case=dzhanibekov", "--over=20", "--substeps=1,4,16",
+                           "--integrators=semi_implicit_velocity,split2,exact", "--repeats=1",
+                           "--output=" + folder_});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_TRUE(contains(ended.said, {"dzhanibekov: one body", "split2", "1e-06 rad: exact, ",
+                                    "Numbers: " + folder_}));
+  for (const char* name : {"work_precision", "attitude_error", "energy", "side_by_side"}) {
+    const std::string png = folder_ + "/" + name + ".png";
+    EXPECT_TRUE(contains(ended.said, {"Picture: ", std::string(name) + ".png"}));
+    ASSERT_TRUE(fs::exists(png)) << png;
+    EXPECT_GT(fs::file_size(png), 15000u) << png;
+    EXPECT_GT(coloursOf(png), 100) << png;
+  }
+}
+
+TEST_F(AccuracyProgram, ReportsAUsersScene) {
+  const std::string path = scene(
+      "step_s: 0.05\n"
+      "effects: {gravity: {acceleration: [0, 0, -9.8]}}\n"
+      "bodies:\n"
+      "  stone: {box: {size: [0.1, 0.2, 0.3], density: 2000}, angular_velocity: [1, 2, 3]}\n"
+      "  drop: {point_mass: 0.1, linear_velocity: [1, 0, 5]}\n");
+  const Ended ended = run({kReport, path, "--over=3", "--substeps=1,2", "--repeats=1",
+                           "--output=" + folder_ + "/new", "--no-plots"});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_TRUE(contains(ended.said, {"my_scene: 2 bodies, a tick of 0.05 s, over 3 s (60 ticks)"}));
+  EXPECT_TRUE(fs::exists(folder_ + "/new/methods.csv"));
+  EXPECT_FALSE(fs::exists(folder_ + "/new/energy.png"));
+}
+
+TEST_F(AccuracyProgram, DrawsPositionsWhereNothingRotates) {
+  const std::string path =
+      scene("effects: {gravity: {acceleration: [0, 0, -9.8]}}\nbodies: {drop: {point_mass: 1}}\n");
+  const Ended ended =
+      run({kReport, path, "--over=1", "--substeps=1,2,4", "--repeats=1", "--output=" + folder_});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_GT(coloursOf(folder_ + "/position_error.png"), 100);
+}
+
+TEST_F(AccuracyProgram, SaysInOneLineWhatIsWrong) {
+  struct Wrong {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  for (const Wrong& wrong :
+       {Wrong{{}, "give either a scene file or --case"},
+        Wrong{{"--case=boxes"}, "'boxes' is not a case; there are dzhanibekov"},
+        Wrong{{"--case=sphere", "--integrators=rk44"}, "'rk44' is not an integrator; there are"},
+        Wrong{{"--case=sphere", "--over=0.001"}, "shorter than a step"},
+        Wrong{{"no_such.yaml"}, "no_such.yaml"}}) {
+    std::vector<std::string> command = {kReport};
+    command.insert(command.end(), wrong.arguments.begin(), wrong.arguments.end());
+    const Ended ended = run(command);
+    EXPECT_EQ(ended.code, 1) << ended.said;
+    EXPECT_TRUE(contains(ended.said, {wrong.says}));
+    EXPECT_EQ(std::count(ended.said.begin(), ended.said.end(), '\n'), 1) << ended.said;
+  }
+  for (const char* argument : {"--substeps=0", "--substeps=x", "--over=-1", "--nonsense"})
+    EXPECT_NE(run({kReport, "--case=sphere", argument}).code, 0) << argument;
+}
+
+TEST_F(AccuracyProgram, ListsTheCasesAndHelps) {
+  const Ended list = run({kReport, "--list"});
+  EXPECT_EQ(list.code, 0);
+  for (const reference::Case& one : reference::cases())
+    EXPECT_TRUE(contains(list.said, {one.name + "\n", one.source}));
+  EXPECT_TRUE(contains(run({kReport, "--help"}).said, {"--over", "--substeps", "--instructions"}));
+}
+
+TEST_F(AccuracyProgram, CountsInstructionsWithValgrind) {
+  if (!fs::exists("/usr/bin/valgrind")) GTEST_SKIP() << "no valgrind";
+  const Ended ended =
+      run({kReport, "--case=tumbling_stone", "--over=1", "--substeps=1,3", "--integrators=split2",
+           "--repeats=1", "--instructions", "--no-plots", "--output=" + folder_});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  std::ifstream file(folder_ + "/methods.csv");
+  std::vector<double> counts;
+  for (std::string line; std::getline(file, line);) {
+    std::string cell;
+    std::istringstream cells(line.substr(line.find("\"\"") + 3));  // after the empty `why`
+    for (int i = 0; i < 10; ++i) std::getline(cells, cell, ',');
+    if (line.rfind("split2", 0) == 0) counts.push_back(std::stod(cell));
+  }
+  ASSERT_EQ(counts.size(), 2u);
+  EXPECT_GT(counts[0], 200);  // 1244 with gcc 12.2 -O3
+  EXPECT_LT(counts[0], 5000);
+  EXPECT_GT(counts[1], 2 * counts[0]);
+  EXPECT_LT(counts[1], 3 * counts[0]);
+}
+
+TEST_F(AccuracyProgram, PlotsOfNothingAreRefused) {
+  EXPECT_NE(run({kPlot, folder_}).code, 0);
+  EXPECT_NE(run({kPlot}).code, 0);
+}
+
+}  // namespace
+}  // namespace rigid_body_sim

@@ -1,0 +1,355 @@
+// The parts of accuracy_report: errors against an independent computation, refusals, the front, the
+// extrapolation, and what is written.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "generic.hpp"
+#include "reference/flight.hpp"
+#include "rigid_body_sim/conserved.hpp"
+#include "tools/accuracy_report/digest.hpp"
+#include "tools/accuracy_report/output.hpp"
+#include "tools/accuracy_report/report.hpp"
+#include "tools/accuracy_report/truth.hpp"
+
+namespace rigid_body_sim::report {
+namespace {
+
+void silently(const std::string&, double) {}
+
+Plan planOf(const std::string& name, double over_s) {
+  Plan plan;
+  plan.name = name;
+  plan.scene = sceneOfCase(name);
+  plan.over_s = over_s;
+  plan.substeps = {1, 4};
+  plan.tolerances = {1e-6};
+  plan.repeats = 1;
+  return plan;
+}
+
+const Row& rowOf(const Report& report, const std::string& rung, int substeps = 1) {
+  for (const Row& row : report.rows)
+    if (row.method.integrator == rung && row.method.substeps == substeps) return row;
+  throw std::runtime_error("no row of " + rung);
+}
+
+// ---- Errors
+
+TEST(ReportedErrors, AgreeWithAnIndependentComputation) {
+  const Report report = make(planOf("tumbling_stone", 5), silently);
+  const reference::Case& one = reference::caseNamed("tumbling_stone");
+  Simulator simulator(withMethod(report.scene, {"split2"}));
+  const BodyState truth =
+      reference::fly(simulator.state(0), one.mass, one.I_BBcm_B, reference::nothing, report.over_s)
+          .end;
+  while (simulator.tick() < report.ticks) simulator.step();
+  const BodyState end = simulator.state(0);
+
+  const Errors& reported = rowOf(report, "split2").flight.end;
+  const double angle = angleBetween(end.q_WB, truth.q_WB);
+  EXPECT_GT(angle, 1e-6);
+  EXPECT_NEAR(reported.pose.attitude_rad, angle, 1e-12);
+  const double energy = kineticEnergy(truth, one.mass, one.I_BBcm_B);
+  EXPECT_NEAR(reported.energy, std::abs(kineticEnergy(end, one.mass, one.I_BBcm_B) / energy - 1),
+              1e-14);
+  EXPECT_NEAR(reported.momentum, end.L_WBcm_W.norm() / truth.L_WBcm_W.norm() - 1, 1e-14);
+}
+
+TEST(ReportedErrors, OfPositionAreThoseOfTheParabola) {
+  // Semi-implicit Euler falls g t h / 2 too far.
+  Plan plan;
+  plan.name = "fall";
+  plan.scene.bodies = {genericSceneBody("ball")};
+  plan.scene.bodies[0].is_point_mass = true;
+  plan.scene.bodies[0].mass_properties.p_FBcm.setZero();
+  plan.scene.effects = {uniformGravity({0, 0, -10}, {0})};
+  plan.over_s = 2;
+  plan.substeps = {1};
+  plan.rungs = {"semi_implicit_velocity", "exact"};
+  plan.repeats = 1;
+  const Report report = make(plan, silently);
+  EXPECT_FALSE(report.rotates);
+  EXPECT_NEAR(errorOf(report, rowOf(report, "semi_implicit_velocity")), 10 * 2 * 0.02 / 2, 1e-12);
+  EXPECT_LE(errorOf(report, rowOf(report, "exact")), 1e-13);
+}
+
+TEST(ReportedErrors, WorstIsAtLeastTheEndAndAllSamples) {
+  const Report report = make(planOf("dzhanibekov", 10), silently);
+  for (const Row& row : report.rows) {
+    if (row.outcome != Outcome::kFlown) continue;
+    EXPECT_EQ(row.flight.samples.size(), report.truth.trajectory.samples.size());
+    EXPECT_EQ(row.flight.samples.front().errors.pose.attitude_rad, 0);
+    double largest = 0;
+    for (const ErrorSample& sample : row.flight.samples)
+      largest = std::max(largest, sample.errors.pose.attitude_rad);
+    EXPECT_EQ(largest, row.flight.worst.pose.attitude_rad) << nameOf(row);
+    EXPECT_EQ(row.flight.samples.back().errors.pose.attitude_rad, row.flight.end.pose.attitude_rad);
+  }
+}
+
+TEST(ReportedErrors, AFlightThatGoesToInfinityIsSaidToAndWhen) {
+  Plan plan = planOf("dzhanibekov", 60);
+  plan.rungs = {"semi_implicit_velocity"};
+  plan.substeps = {1};
+  const Row row = make(plan, silently).rows.at(0);
+  EXPECT_EQ(row.outcome, Outcome::kInfinite);
+  EXPECT_NEAR(row.flight.infinite_after_s, 53.8, 0.7);  // as in accuracy_figures_test
+  EXPECT_TRUE(contains(row.why, {"infinite after 5", " s"}));
+  EXPECT_GT(row.cost.median_ns, 0);
+}
+
+TEST(BestKnown, ADoubtCoversWhatTheThirdWayFinds) {
+  // A thin rod's own spin drowns in R^T L, for exact in half steps, too.
+  for (const char* name : {"thin_rod", "dzhanibekov", "sphere"}) {
+    const Scene scene = sceneOfCase(name);
+    const TrueTrajectory plain = flyTruly(scene, 500, 10);
+    const TrueTrajectory known = bestKnown(scene, 500, 10);
+    EXPECT_GE(known.doubt.attitude_rad, plain.doubt.attitude_rad) << name;
+    EXPECT_LT(known.doubt.attitude_rad, 1e-5) << name;
+    EXPECT_TRUE(contains(known.how, {plain.how, "extended precision"}));
+  }
+}
+
+TEST(BestKnown, KeepsToItselfWhatItCannotCheck) {
+  Scene scene = sceneOfCase("sphere");
+  scene.effects = {uniformGravity({0, 0, -10}, {0})};
+  EXPECT_EQ(bestKnown(scene, 50, 10).how, flyTruly(scene, 50, 10).how);
+}
+
+// ---- Refusals
+
+TEST(Refusals, ATurnThatIsTooLargeForARungIsRefusedWithBothNumbers) {
+  int refused = 0;
+  for (const IntegratorRow& rung : integrators()) {
+    if (!std::isfinite(rung.max_turn)) continue;
+    ++refused;
+    Plan plan = planOf("sphere", 1);
+    plan.scene.bodies[0].w_WB_L = Vector3d(0, 0, 1.5 * rung.max_turn / plan.scene.step_s());
+    plan.rungs = {rung.name};
+    plan.substeps = {1, 2};
+    const Report report = make(plan, silently);
+    EXPECT_EQ(rowOf(report, rung.name).outcome, Outcome::kRefused) << rung.name;
+    EXPECT_TRUE(contains(rowOf(report, rung.name).why, {"refused: |w| h is ", "at most"}));
+    EXPECT_EQ(rowOf(report, rung.name, 2).outcome, Outcome::kFlown) << rung.name;
+  }
+  EXPECT_GE(refused, 1);
+}
+
+TEST(Refusals, StepsBackInTimeAreRefusedUnderDrag) {
+  class Drag : public Effect {
+   public:
+    std::string name() const override { return "drag"; }
+    std::size_t bodyCount() const override { return 1; }
+    bool dependsOnVelocity() const override { return true; }
+    void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
+      wrenches.t_Bcm_W -= 0.01 * bodies.L_WBcm_W;
+    }
+  };
+  Plan plan = planOf("tumbling_stone", 1);
+  plan.scene.effects = {std::make_shared<Drag>()};
+  const Report report = make(plan, silently);
+  for (const IntegratorRow& rung : integrators()) {
+    const bool has_steps_back = rung.order != 0 && rung.order_under_drag == 0;
+    EXPECT_EQ(rowOf(report, rung.name).outcome,
+              has_steps_back ? Outcome::kRefused : Outcome::kFlown)
+        << rung.name;
+  }
+}
+
+TEST(Refusals, WhatWouldTakeTooLongIsSkippedAndSaysSo) {
+  Plan plan = planOf("dzhanibekov", 20);
+  plan.rungs = {"semi_implicit_velocity"};
+  plan.substeps = {4, 4096};
+  plan.longest_s = 1e-3;
+  const Report report = make(plan, silently);
+  EXPECT_EQ(report.rows.at(1).outcome, Outcome::kSkipped);
+  EXPECT_TRUE(contains(report.rows.at(1).why, {"skipped: would take "}));
+}
+
+TEST(Refusals, AnUnknownCaseNamesThoseThereAre) {
+  EXPECT_TRUE(contains(refusal([] { sceneOfCase("boxes"); }), {"boxes", "dzhanibekov", "sphere"}));
+}
+
+// ---- The front, and what the report concludes
+
+/// A report of made-up rows: rung, substeps, error, cost.
+struct Made {
+  std::string rung;
+  int substeps;
+  double error;
+  double cost_ns;
+};
+
+Report reportOf(const std::vector<Made>& rows, double doubt = 1e-13) {
+  Report report;
+  report.name = "made_up";
+  report.scene = sceneOfCase("sphere");
+  report.scene.effects = {uniformGravity({0, 0, 0}, {0})};  // so that rounding is not measured
+  report.ticks = 10;
+  report.over_s = 0.2;
+  report.truth.trajectory = fly(report.scene, {"exact"}, 10, 1);
+  report.truth.doubt = {doubt, 0};
+  for (const Made& one : rows) {
+    report.rows.emplace_back();
+    Row& row = report.rows.back();
+    row.method = {one.rung, one.substeps};
+    row.flight.worst.pose.attitude_rad = row.flight.end.pose.attitude_rad = one.error;
+    row.flight.samples.resize(1);
+    row.cost = {one.cost_ns, one.cost_ns};
+  }
+  markFront(report);
+  return report;
+}
+
+std::vector<bool> frontOf(const Report& report) {
+  std::vector<bool> marks;
+  for (const Row& row : report.rows) marks.push_back(row.is_on_front);
+  return marks;
+}
+
+TEST(Front, HoldsWhatNothingCheaperBeats) {
+  const Report report = reportOf({{"split2", 1, 1e-3, 100},
+                                  {"split2", 4, 1e-4, 400},
+                                  {"exact", 1, 1e-4, 300},
+                                  {"semi_implicit_velocity", 1, 0.5, 50},
+                                  {"semi_implicit_velocity", 4, 0.1, 200}});
+  EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false, true, true, false}));
+}
+
+TEST(Front, ErrorsBelowTheDoubtAreAllTheSame) {
+  const Report report = reportOf({{"split2", 1, 3e-9, 100}, {"exact", 1, 1e-12, 200}}, 1e-8);
+  EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false}));
+}
+
+TEST(Front, WhatHasLostTheAttitudeIsNotOnIt) {
+  const Report report =
+      reportOf({{"explicit_euler_velocity", 1, 3.1, 10}, {"split2", 1, 1e-3, 100}});
+  EXPECT_EQ(frontOf(report), (std::vector<bool>{false, true}));
+}
+
+TEST(Digest, ExtrapolatesByTheOrder) {
+  const Report report = reportOf({{"semi_implicit_velocity", 64, 0.4, 1e3},
+                                  {"semi_implicit_velocity", 256, 0.1, 4e3},
+                                  {"exact", 1, 0, 200}});
+  const auto needed = extrapolate(report, "semi_implicit_velocity", 1e-6, 1e-12);
+  ASSERT_TRUE(needed);
+  EXPECT_NEAR(needed->substeps, 256e5, 1);
+  EXPECT_NEAR(needed->cost_ns, 4e8, 1);
+  EXPECT_NEAR(needed->slope, 1, 1e-12);
+  EXPECT_NEAR(needed->rounding, 1e-12 * std::sqrt(1e5), 1e-16);
+  EXPECT_NEAR(needed->rounding_sum, 1e-7, 1e-13);
+  EXPECT_EQ(cheapestWithin(report, 1e-6)->method.integrator, "exact");
+  std::string all;
+  for (const std::string& sentence : digest(report)) all += sentence + "\n";
+  EXPECT_TRUE(contains(all, {"1e-06 rad: exact, 200 ns", "2.6e+07 substeps, 2e+06 times the time",
+                             "extrapolated from 0.1 rad at 256"}));
+}
+
+TEST(Digest, DoesNotExtrapolateWhatDoesNotFallAsItsOrderSays) {
+  const Report report =
+      reportOf({{"semi_implicit_velocity", 64, 3.1, 1e3}, {"semi_implicit_velocity", 256, 2, 4e3}});
+  EXPECT_FALSE(extrapolate(report, "semi_implicit_velocity", 1e-6, 0));
+  EXPECT_TRUE(contains(digest(report).at(0), {"0.01 rad: nothing that was tried gets there"}));
+}
+
+TEST(Digest, RoundingIsWhatAnotherAttitudeChanges) {
+  Report report = make(planOf("tumbling_stone", 2), silently);
+  const double rounding = roundingOf(report, {"split2", 64});
+  EXPECT_GT(rounding, 1e-16);
+  EXPECT_LT(rounding, 1e-11);
+  report.scene.effects = {uniformGravity({0, 0, -1}, {0})};
+  EXPECT_TRUE(std::isnan(roundingOf(report, {"split2", 64})));
+}
+
+// ---- Costs
+
+TEST(ReportedCosts, EvaluationsAreThoseThatTheRungStates) {
+  const Scene scene = sceneOfCase("tumbling_stone");
+  for (const IntegratorRow& rung : integrators()) {
+    const double counted = evaluationsATick(scene, {rung.name, 3});
+    if (rung.evaluations != 0) {
+      EXPECT_LE(counted, 3 * rung.evaluations + 1e-9) << rung.name;
+    }
+    EXPECT_GE(counted, 3) << rung.name;
+  }
+}
+
+// ---- Files
+
+std::vector<std::map<std::string, std::string>> csvOf(const std::string& path) {
+  std::ifstream file(path);
+  const auto cellsOf = [](const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool is_quoted = false;
+    for (const char c : line) {
+      if (c == '"') {
+        is_quoted = !is_quoted;
+      } else if (c == ',' && !is_quoted) {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    return cells;
+  };
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> keys = cellsOf(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = cellsOf(line);
+    EXPECT_EQ(cells.size(), keys.size()) << path << ": " << line;
+    rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(cells.size(), keys.size()); ++i)
+      rows.back()[keys[i]] = cells[i];
+  }
+  return rows;
+}
+
+TEST(ReportFiles, HoldEveryRowToTheLastDigit) {
+  const Report report = make(planOf("dzhanibekov", 10), silently);
+  const std::string folder = testing::TempDir() + "accuracy_report_files";
+  writeCsv(report, folder);
+  auto rows = csvOf(folder + "/methods.csv");
+  ASSERT_EQ(rows.size(), report.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = report.rows[i];
+    EXPECT_EQ(rows[i]["rung"], row.method.integrator);
+    EXPECT_EQ(rows[i]["is_on_front"], row.is_on_front ? "1" : "0");
+    if (row.outcome != Outcome::kFlown) continue;
+    EXPECT_EQ(std::stod(rows[i]["attitude_max"]), row.flight.worst.pose.attitude_rad);
+    EXPECT_EQ(std::stod(rows[i]["position_end"]), row.flight.end.pose.position_m);
+    EXPECT_EQ(std::stod(rows[i]["energy_max"]), row.flight.worst.energy);
+    EXPECT_EQ(std::stod(rows[i]["momentum_end"]), row.flight.end.momentum);
+    EXPECT_EQ(std::stod(rows[i]["cost_median"]), row.cost.median_ns);
+    EXPECT_EQ(rows[i]["instructions"], "");
+  }
+  const auto samples = csvOf(folder + "/flights.csv");
+  const std::size_t each = report.truth.trajectory.samples.size();
+  EXPECT_EQ(samples.size() % each, 0u);
+  EXPECT_EQ(samples.front().at("rung"), "reference");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ReportFiles, AFolderThatCannotBeIsRefused) {
+  const Report report = reportOf({{"exact", 1, 0, 1}});
+  EXPECT_TRUE(contains(refusal([&] { writeCsv(report, "/dev/null/here"); }),
+                       {"/dev/null/here", "cannot be written"}));
+}
+
+TEST(ReportTable, SaysWhatEachRowIsAndHowGoodTheReferenceIs) {
+  std::ostringstream out;
+  print(make(planOf("dzhanibekov", 60), silently), out);
+  EXPECT_TRUE(contains(
+      out.str(), {"dzhanibekov: one body, a tick of 0.02 s, over 60 s (3000 ticks)", "Reference: ",
+                  "In doubt by at most", "attitude [rad]", "infinite after 5", "rad: exact, "}));
+  for (const IntegratorRow& rung : integrators())
+    EXPECT_TRUE(contains(out.str(), {"\n" + rung.name + " "}));
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::report
