@@ -31,9 +31,9 @@ using geometry_msgs::TransformStamped;
 using rigid_body_sim::BodyStates;
 using visualization_msgs::Marker;
 
-constexpr double kGap = 0.72;              // [m] between two rungs, along y
-constexpr double kLabelHeight = 1.52;      // [m] of the names
-constexpr double kTitleHeight = 2.02;      // [m]
+constexpr double kGap = 0.66;              // [m] between two rungs, along y
+constexpr double kLabelHeight = 1.50;      // [m] of the names
+constexpr double kTitleHeight = 1.84;      // [m]
 constexpr std::size_t kMaxWaiting = 2000;  // ticks of which a rung is still missing
 
 struct Color {
@@ -169,7 +169,7 @@ class LadderLabels {
     markers_.markers.clear();
     addText("title", 0, kTitleHeight, 0.105, kWhite,
             "One T-handle, five integrators, " + print("%.0f s flown", (now_ - start_).toSec()));
-    addText("title", 0, kTitleHeight - 0.14, 0.07, kGrey,
+    addText("title", 0, kTitleHeight - 0.13, 0.065, kGrey,
             "solid: as each has it; faint: where it truly is. Price: a tick's time, in those of "
             "semi-implicit Euler");
     for (const Rung& rung : rungs_) {
@@ -177,9 +177,9 @@ class LadderLabels {
       addText("price", rung.y, kLabelHeight - 0.115, 0.07, kGrey, print("price %.2g", rung.price));
       const bool is_truth = &rung == &rungs_.back();
       addText("error", rung.y, kLabelHeight - 0.215, 0.075, colorOf(rung.error),
-              is_truth ? "the others' measure" : inWords(rung.error));
+              is_truth ? "exact to rounding" : inWords(rung.error));
       addText("worst", rung.y, kLabelHeight - 0.305, 0.06, kGrey,
-              is_truth ? "right to rounding" : "so far " + inWords(rung.worst));
+              is_truth ? "the others' measure" : "at worst " + inWords(rung.worst));
     }
     marker_pub_.publish(markers_);
   }

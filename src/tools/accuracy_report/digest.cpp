@@ -9,7 +9,7 @@
 namespace rigid_body_sim::report {
 namespace {
 
-/// What engines commonly do: the yardstick.
+/// What engines commonly do, in momenta and in velocities.
 constexpr const char* kYardsticks[] = {"semi_implicit", "semi_implicit_velocity"};
 
 std::string number(double value, int digits = 3) {
@@ -46,65 +46,82 @@ const Row* cheapestWithin(const std::vector<const Row*>& rows, const Report& rep
   const Row* cheapest = nullptr;
   for (const Row* row : rows)
     if (errorOf(report, *row) <= tolerance &&
-        (!cheapest || row->cost.median_ns < cheapest->cost.median_ns))
+        (!cheapest || row->cost.median_ns * kSameCost < cheapest->cost.median_ns))
       cheapest = row;
   return cheapest;
 }
 
 struct Yardstick {
-  std::string rung;  ///< empty: none was flown
-  double rounding;   ///< of its finest flight
+  std::string rung;
+  double rounding;  ///< of its finest flight
 };
 
-Yardstick yardstickOf(const Report& report) {
+std::vector<Yardstick> yardsticksOf(const Report& report) {
+  std::vector<Yardstick> found;
   for (const char* name : kYardsticks) {
     const std::vector<const Row*> rows = flownRows(report, name);
-    if (!rows.empty()) return {name, roundingOf(report, rows.back()->method)};
+    if (!rows.empty()) found.push_back({name, roundingOf(report, rows.back()->method)});
   }
-  return {};
+  return found;
 }
 
 std::string onRounding(const Extrapolation& needed, double tolerance) {
-  if (std::isnan(needed.rounding)) return "; rounding is not counted in this";
   constexpr double kHalfTurn = 3.1;  // [rad] no error is larger
+  if (!(needed.rounding_sum > tolerance)) return {};
   const std::string from_to = number(std::min(needed.rounding, kHalfTurn), 1) + " to " +
                               number(std::min(needed.rounding_sum, kHalfTurn), 1) + " rad";
   if (needed.rounding > tolerance)
-    return "; but rounding alone would make " + from_to +
-           " in so many steps: no number of substeps gets there";
-  if (needed.rounding_sum > tolerance)
-    return "; rounding alone would make " + from_to +
-           " in so many steps, so it is doubtful whether any number of substeps gets there";
-  return "; rounding would make at most " + number(needed.rounding_sum, 1) + " rad of it";
+    return " (rounding alone would make " + from_to + " in so many steps: none gets there)";
+  return " (rounding alone would make " + from_to + " in so many steps: perhaps none gets there)";
 }
 
 /// What the yardstick would take instead of `chosen`.
 std::string comparison(const Report& report, const Row& chosen, const Yardstick& yardstick,
                        double tolerance) {
   const std::string& rung = yardstick.rung;
-  if (rung.empty() || rung == chosen.method.integrator) return {};
-  const auto times = [&](double ns) { return number(ns / chosen.cost.median_ns, 2) + " times"; };
-  if (const Row* row = cheapestWithin(flownRows(report, rung), report, tolerance))
-    return " " + rung + " needs " + substeps(row->method.substeps) + ": " + times(row->cost.median_ns) + " the time.";
+  if (rung == chosen.method.integrator) return {};
+  const auto times = [&](double ns) {
+    return ", " + number(ns / chosen.cost.median_ns, 2) + " times the time";
+  };
+  const std::vector<const Row*> rows = flownRows(report, rung);
+  if (const Row* row = cheapestWithin(rows, report, tolerance))
+    return "; " + rung + " takes " + substeps(row->method.substeps) + times(row->cost.median_ns);
   const auto needed = extrapolate(report, rung, tolerance, yardstick.rounding);
   if (!needed)
-    return " No number of substeps that was tried brings " + rung +
-           " there, and its error does not yet fall as its order says.";
-  const Row& finest = *flownRows(report, rung).back();
-  return " " + rung + " would need " + number(needed->substeps, 2) + " substeps, " +
-         times(needed->cost_ns) + " the time (extrapolated from " +
-         number(errorOf(report, finest), 2) + unit(report) + " at " +
-         std::to_string(finest.method.substeps) + ", where its error falls as n^-" +
-         number(needed->slope, 2) + onRounding(*needed, tolerance) + ").";
+    return "; " + rung + " does not get there with " + substeps(rows.back()->method.substeps) +
+           times(rows.back()->cost.median_ns);
+  return "; " + rung + " would take " + number(needed->substeps, 2) + " substeps" +
+         times(needed->cost_ns) + onRounding(*needed, tolerance);
 }
 
-std::string sentence(const Report& report, const Yardstick& yardstick, double tolerance) {
+std::string sentence(const Report& report, const std::vector<Yardstick>& yardsticks,
+                     double tolerance) {
   const std::string goal = number(tolerance) + unit(report) + ": ";
   const Row* chosen = cheapestWithin(report, tolerance);
   if (!chosen) return goal + "nothing that was tried gets there.";
-  return goal + nameOf(*chosen) + ", " + duration(chosen->cost.median_ns) + " a body and tick, " +
-         number(realTimeFactor(report, *chosen), 2) + " times real time." +
-         comparison(report, *chosen, yardstick, tolerance);
+  std::string text = goal + nameOf(*chosen) + ", " + duration(chosen->cost.median_ns) +
+                     " a body and tick, " + number(realTimeFactor(report, *chosen), 2) +
+                     " times real time";
+  for (const Yardstick& yardstick : yardsticks)
+    text += comparison(report, *chosen, yardstick, tolerance);
+  return text + ".";
+}
+
+/// What the above says of a yardstick rests on.
+std::string basis(const Report& report, const Yardstick& yardstick) {
+  const Row& finest = *flownRows(report, yardstick.rung).back();
+  const std::string finest_is =
+      number(errorOf(report, finest), 2) + unit(report) + " at " + substeps(finest.method.substeps);
+  const auto needed = extrapolate(report, yardstick.rung, 1, yardstick.rounding);
+  if (!needed)
+    return "Of " + yardstick.rung + " nothing is extrapolated: its error, " + finest_is +
+           ", does not yet fall as its order says.";
+  std::string text = "What " + yardstick.rung + " would take is extrapolated from " + finest_is +
+                     ", where its error falls as n^-" + number(needed->slope, 2);
+  if (std::isnan(yardstick.rounding)) return text + "; rounding is not counted.";
+  return text + " and rounding makes " + number(yardstick.rounding, 1) +
+         " rad of it (the difference to the same flight from another attitude); that grows as the "
+         "root of the number of steps, if not in proportion to it.";
 }
 
 }  // namespace
@@ -161,10 +178,13 @@ std::optional<Extrapolation> extrapolate(const Report& report, const std::string
 }
 
 std::vector<std::string> digest(const Report& report) {
-  const Yardstick yardstick = yardstickOf(report);
+  const std::vector<Yardstick> yardsticks = yardsticksOf(report);
   std::vector<std::string> sentences;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
-    if (tolerance > doubtOf(report)) sentences.push_back(sentence(report, yardstick, tolerance));
+    if (tolerance > doubtOf(report)) sentences.push_back(sentence(report, yardsticks, tolerance));
+  for (const Yardstick& yardstick : yardsticks)
+    if (errorOf(report, *flownRows(report, yardstick.rung).back()) > doubtOf(report))
+      sentences.push_back(basis(report, yardstick));
   return sentences;
 }
 

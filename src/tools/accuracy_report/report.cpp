@@ -11,8 +11,9 @@
 namespace rigid_body_sim::report {
 namespace {
 
-constexpr double kLost = 1;     // [rad] from here on an error says nothing of the attitude
-constexpr Tick kSamples = 600;  // about, of a flight: a point every pixel of a plot
+constexpr double kLost = 1;        // [rad] from here on an error says nothing of the attitude
+constexpr double kSettled = 1e-3;  // [rad or m] below it an error that no longer falls is rounding
+constexpr Tick kSamples = 600;     // about, of a flight: a point every pixel of a plot
 
 std::vector<const IntegratorRow*> rungsOf(const Plan& plan) {
   std::vector<const IntegratorRow*> rungs;
@@ -89,8 +90,18 @@ double moreWork(const Row& row, const Row& before) {
   return static_cast<double>(row.method.substeps) / before.method.substeps;
 }
 
-/// Flies a rung with ever smaller steps, as long as the true flight can tell the results apart and
-/// a flight does not take too long.
+/// Whether smaller steps make it no better any more: the last two are worse than one before.
+bool isRounding(const std::vector<Row>& flown, const Report& report) {
+  if (flown.size() < 3) return false;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 2 < flown.size(); ++k)
+    best = std::min(best, errorOf(report, flown[k]));
+  return best < kSettled && errorOf(report, flown.back()) >= best &&
+         errorOf(report, flown[flown.size() - 2]) >= best;
+}
+
+/// Flies a rung with ever smaller steps, as long as that makes it better, the true flight can tell
+/// the results apart, and a flight does not take too long.
 std::vector<Row> flyRung(const IntegratorRow& rung, const Plan& plan, const Report& report,
                          double angular_speed, const std::function<void(const Row&)>& tell) {
   std::vector<Row> flown;
@@ -105,7 +116,8 @@ std::vector<Row> flyRung(const IntegratorRow& rung, const Plan& plan, const Repo
     }
     flyRow(row, plan, report, angular_speed);
     flown.push_back(row);
-    if (row.outcome == Outcome::kFlown && errorOf(report, row) <= doubtOf(report)) break;
+    if (row.outcome != Outcome::kFlown) continue;
+    if (errorOf(report, row) <= doubtOf(report) || isRounding(flown, report)) break;
   }
   return flown;
 }
@@ -179,21 +191,22 @@ double doubtOf(const Report& report) {
   return report.rotates ? report.truth.doubt.attitude_rad : report.truth.doubt.position_m;
 }
 
+bool isBeaten(const Report& report, const Row& row, const Row& by) {
+  const double error = std::max(errorOf(report, row), doubtOf(report));
+  const double other = std::max(errorOf(report, by), doubtOf(report));
+  if (other > error || by.cost.median_ns > kSameCost * row.cost.median_ns) return false;
+  return other < error || by.cost.median_ns * kSameCost < row.cost.median_ns || &by < &row;
+}
+
 void markFront(Report& report) {
-  std::vector<Row*> rows;
+  const auto counts = [&](const Row& row) {
+    return row.outcome == Outcome::kFlown && !(report.rotates && errorOf(report, row) > kLost);
+  };
   for (Row& row : report.rows) {
-    row.is_on_front = false;
-    if (row.outcome == Outcome::kFlown && !(report.rotates && errorOf(report, row) > kLost))
-      rows.push_back(&row);
-  }
-  std::stable_sort(rows.begin(), rows.end(), [](const Row* a, const Row* b) {
-    return a->cost.median_ns < b->cost.median_ns;
-  });
-  double best = std::numeric_limits<double>::infinity();
-  for (Row* row : rows) {
-    const double error = std::max(errorOf(report, *row), doubtOf(report));
-    row->is_on_front = error < best;
-    best = std::min(best, error);
+    const auto beats = [&](const Row& by) {
+      return counts(by) && &by != &row && isBeaten(report, row, by);
+    };
+    row.is_on_front = counts(row) && std::none_of(report.rows.begin(), report.rows.end(), beats);
   }
 }
 

@@ -36,7 +36,7 @@ struct Row {
   double instructions = std::numeric_limits<double>::quiet_NaN();  ///< a body and tick; NaN: not
                                                                    ///< counted
   Cost cost;                                                       ///< of a body's tick
-  bool is_on_front = false;  ///< no cheaper method has a smaller error
+  bool is_on_front = false;                                        ///< see markFront
 };
 
 struct Report {
@@ -61,8 +61,15 @@ double errorOf(const Report& report, const Row& row);
 /// How far the true flight itself is to be trusted, in the same unit.
 double doubtOf(const Report& report);
 
-/// Marks the rows that no cheaper row beats. Errors below the doubt count as equal to it; rows that
-/// are off by more than a radian have lost the attitude and do not count.
+/// Costs that differ by less than this factor count as equal: the clock's noise.
+constexpr double kSameCost = 1.05;
+
+/// Whether `by` is at least as accurate and as cheap, and better in one; of equals, the first of
+/// the rows. Errors below the doubt count as equal to it.
+bool isBeaten(const Report& report, const Row& row, const Row& by);
+
+/// Marks the rows that no other beats. Rows that are off by more than a radian have lost the
+/// attitude and do not count.
 void markFront(Report& report);
 
 /// `rk4`, `rk4 x 3`, `adaptive 1e-08`.
