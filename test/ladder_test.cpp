@@ -36,28 +36,28 @@ class Ladder : public testing::Test {
 
   static void SetUpTestSuite() {
     heard_ = new Heard;
-    const auto hear_tf = [](const tf2_msgs::TFMessage::ConstPtr& tf) {
-      for (const auto& one : tf->transforms)
-        heard_->frames[one.header.stamp][one.child_frame_id] = one.transform;
-    };
-    const auto hear_fixed = [](const tf2_msgs::TFMessage::ConstPtr& tf) {
-      for (const auto& one : tf->transforms) heard_->fixed_frames.insert(one.child_frame_id);
-    };
-    const auto hear_labels = [](const visualization_msgs::MarkerArray::ConstPtr& labels) {
-      heard_->labels = *labels;
-    };
     auto& nh = heard_->nh;
-    heard_->subscribers = {
-        nh.subscribe<tf2_msgs::TFMessage>("/tf", 1000, hear_tf),
-        nh.subscribe<tf2_msgs::TFMessage>("/tf_static", 10, hear_fixed),
-        nh.subscribe<visualization_msgs::MarkerArray>("ladder/labels", 10, hear_labels)};
-    need(
-        "20 s of flight", [] { return heard_->frames.count(stampOf(kTicks)) == 1; }, 40);
+    heard_->subscribers = {nh.subscribe("/tf", 1000, hearFrames),
+                           nh.subscribe("/tf_static", 10, hearFixedFrames),
+                           nh.subscribe("ladder/labels", 10, hearLabels)};
+    const auto has_flown = [] { return heard_->frames.count(stampOf(kTicks)) == 1; };
+    need("20 s of flight", has_flown, 40);
     need("labels", [] { return !heard_->labels.markers.empty(); });
   }
   static void TearDownTestSuite() {
     delete heard_;
     heard_ = nullptr;
+  }
+
+  static void hearFrames(const tf2_msgs::TFMessage::ConstPtr& tf) {
+    for (const auto& one : tf->transforms)
+      heard_->frames[one.header.stamp][one.child_frame_id] = one.transform;
+  }
+  static void hearFixedFrames(const tf2_msgs::TFMessage::ConstPtr& tf) {
+    for (const auto& one : tf->transforms) heard_->fixed_frames.insert(one.child_frame_id);
+  }
+  static void hearLabels(const visualization_msgs::MarkerArray::ConstPtr& labels) {
+    heard_->labels = *labels;
   }
 
   static ros::Time stampOf(int tick) { return ros::Time(1 + tick / 25, tick % 25 * 40'000'000); }
@@ -123,8 +123,4 @@ TEST_F(Ladder, LabelsSayThePriceAndTheError) {
 }  // namespace
 }  // namespace rigid_body_sim
 
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "ladder_test");
-  return RUN_ALL_TESTS();
-}
+int main(int argc, char** argv) { return rigid_body_sim::runRostest(argc, argv, "ladder_test"); }
