@@ -1,5 +1,5 @@
-// The parts of accuracy_report: errors against an independent computation, refusals, the front, the
-// extrapolation, and what is written.
+// The parts of accuracy_report: errors against an independent computation, refusals, costs, and
+// what is written.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -174,105 +174,6 @@ TEST(Refusals, AnUnknownCaseNamesThoseThereAre) {
   EXPECT_TRUE(contains(refusal([] { sceneOfCase("boxes"); }), {"boxes", "dzhanibekov", "sphere"}));
 }
 
-// ---- The front, and what the report concludes
-
-/// A report of made-up rows: rung, substeps, error, cost.
-struct Made {
-  std::string rung;
-  int substeps;
-  double error;
-  double cost_ns;
-};
-
-Report reportOf(const std::vector<Made>& rows, double doubt = 1e-13) {
-  Report report;
-  report.name = "made_up";
-  report.scene = sceneOfCase("sphere");
-  report.scene.effects = {uniformGravity({0, 0, 0}, {0})};  // so that rounding is not measured
-  report.ticks = 10;
-  report.over_s = 0.2;
-  report.truth.trajectory = fly(report.scene, {"exact"}, 10, 1);
-  report.truth.doubt = {doubt, 0};
-  for (const Made& one : rows) {
-    report.rows.emplace_back();
-    Row& row = report.rows.back();
-    row.method = {one.rung, one.substeps};
-    row.flight.worst.pose.attitude_rad = row.flight.end.pose.attitude_rad = one.error;
-    row.flight.samples.resize(1);
-    row.cost = {one.cost_ns, one.cost_ns};
-  }
-  markFront(report);
-  return report;
-}
-
-std::vector<bool> frontOf(const Report& report) {
-  std::vector<bool> marks;
-  for (const Row& row : report.rows) marks.push_back(row.is_on_front);
-  return marks;
-}
-
-TEST(Front, HoldsWhatNothingCheaperBeats) {
-  const Report report = reportOf({{"split2", 1, 1e-3, 100},
-                                  {"split2", 4, 1e-4, 400},
-                                  {"exact", 1, 1e-4, 300},
-                                  {"semi_implicit_velocity", 1, 0.5, 50},
-                                  {"semi_implicit_velocity", 4, 0.1, 200}});
-  EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false, true, true, false}));
-}
-
-TEST(Front, ErrorsBelowTheDoubtAreAllTheSame) {
-  const Report report = reportOf({{"split2", 1, 3e-9, 100}, {"exact", 1, 1e-12, 200}}, 1e-8);
-  EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false}));
-}
-
-TEST(Front, OfRowsThatCostTheSameTheFirstIsOnIt) {
-  const Report report =
-      reportOf({{"exact", 1, 0, 100}, {"exact", 2, 0, 97}, {"split2", 1, 1e-3, 98}});
-  EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false, false}));
-}
-
-TEST(Front, WhatHasLostTheAttitudeIsNotOnIt) {
-  const Report report =
-      reportOf({{"explicit_euler_velocity", 1, 3.1, 10}, {"split2", 1, 1e-3, 100}});
-  EXPECT_EQ(frontOf(report), (std::vector<bool>{false, true}));
-}
-
-TEST(Digest, ExtrapolatesByTheOrder) {
-  const Report report = reportOf({{"semi_implicit_velocity", 64, 0.4, 1e3},
-                                  {"semi_implicit_velocity", 256, 0.1, 4e3},
-                                  {"exact", 1, 0, 200}});
-  const auto needed = extrapolate(report, "semi_implicit_velocity", 1e-6, 1e-12);
-  ASSERT_TRUE(needed);
-  EXPECT_NEAR(needed->substeps, 256e5, 1);
-  EXPECT_NEAR(needed->cost_ns, 4e8, 1);
-  EXPECT_NEAR(needed->slope, 1, 1e-12);
-  EXPECT_NEAR(needed->rounding, 1e-12 * std::sqrt(1e5), 1e-16);
-  EXPECT_NEAR(needed->rounding_sum, 1e-7, 1e-13);
-  EXPECT_EQ(cheapestWithin(report, 1e-6)->method.integrator, "exact");
-  std::string all;
-  for (const std::string& sentence : digest(report)) all += sentence + "\n";
-  EXPECT_TRUE(
-      contains(all, {"1e-06 rad: exact, 200 ns",
-                     "semi_implicit_velocity would take 2.6e+07 substeps, 2e+06 times the time",
-                     "extrapolated from 0.1 rad at 256"}));
-}
-
-TEST(Digest, DoesNotExtrapolateWhatDoesNotFallAsItsOrderSays) {
-  const Report report =
-      reportOf({{"semi_implicit_velocity", 64, 3.1, 1e3}, {"semi_implicit_velocity", 256, 2, 4e3}});
-  EXPECT_FALSE(extrapolate(report, "semi_implicit_velocity", 1e-6, 0));
-  EXPECT_TRUE(contains(digest(report).at(0), {"0.01 rad: nothing that was tried gets there"}));
-}
-
-TEST(Digest, RoundingIsWhatAnotherAttitudeChanges) {
-  Report report = make(planOf("tumbling_stone", 2), silently);
-  const double rounding = roundingOf(report, {"split2", 64});
-  EXPECT_GT(rounding, 1e-16);
-  EXPECT_LT(rounding, 1e-11);
-  report.scene.effects = {uniformGravity({0, 0, -1}, {0})};
-  EXPECT_TRUE(std::isnan(roundingOf(report, {"split2", 64})));
-}
-
 // ---- Costs
 
 TEST(ReportedCosts, EvaluationsAreThoseThatTheRungStates) {
@@ -284,6 +185,35 @@ TEST(ReportedCosts, EvaluationsAreThoseThatTheRungStates) {
     }
     EXPECT_GE(counted, 3) << rung.name;
   }
+}
+
+// ---- The README's table
+
+TEST(ReadmeTable, HoldsForTheTumblingBody) {
+  struct Figure {
+    std::string rung;
+    int substeps;
+    double error;
+  };
+  Plan plan = planOf("dzhanibekov", 60);
+  plan.substeps = {1, 2, 16, 64, 4096};
+  plan.rungs = {"semi_implicit", "semi_implicit_velocity", "split2", "rk4", "rk8", "exact"};
+  const Report report = make(plan, silently);
+  EXPECT_LT(doubtOf(report), 1e-11);
+  for (const Figure& figure :
+       {Figure{"split2", 1, 3.7e-3}, Figure{"split2", 64, 9.0e-7}, Figure{"rk4", 1, 9.2e-6},
+        Figure{"rk4", 2, 6.9e-7}, Figure{"semi_implicit_velocity", 4096, 0.037}})
+    EXPECT_NEAR(errorOf(report, rowOf(report, figure.rung, figure.substeps)), figure.error,
+                0.03 * figure.error)
+        << figure.rung;
+  EXPECT_LT(errorOf(report, rowOf(report, "rk4", 16)), 1e-8);
+  EXPECT_LT(errorOf(report, rowOf(report, "rk8")), 1e-9);
+  EXPECT_LT(errorOf(report, rowOf(report, "exact")), 1e-11);
+
+  // Semi-implicit Euler does not get to 1e-6 rad in 1700 times the time of what does.
+  const Row& euler = rowOf(report, "semi_implicit", 4096);
+  EXPECT_GT(errorOf(report, euler), 3);
+  EXPECT_GT(euler.cost.median_ns, 100 * cheapestWithin(report, 1e-6)->cost.median_ns);
 }
 
 // ---- Files
@@ -344,7 +274,9 @@ TEST(ReportFiles, HoldEveryRowToTheLastDigit) {
 }
 
 TEST(ReportFiles, AFolderThatCannotBeIsRefused) {
-  const Report report = reportOf({{"exact", 1, 0, 1}});
+  Plan plan = planOf("sphere", 1);
+  plan.rungs = {"exact"};
+  const Report report = make(plan, silently);
   EXPECT_TRUE(contains(refusal([&] { writeCsv(report, "/dev/null/here"); }),
                        {"/dev/null/here", "cannot be written"}));
 }
