@@ -170,6 +170,17 @@ TEST(Refusals, WhatWouldTakeTooLongIsSkippedAndSaysSo) {
   EXPECT_TRUE(contains(report.rows.at(1).why, {"skipped: would take "}));
 }
 
+TEST(Refusals, AfterARefusalTheSmallerStepsAreFlown) {
+  Plan plan = planOf("dzhanibekov", 2);
+  plan.scene.bodies[0].w_WB_L = Vector3d(5, 60, 1);  // 1.2 rad a tick
+  plan.rungs = {"rk4"};
+  plan.substeps = {1, 2, 4, 8, 16};
+  const Report report = make(plan, silently);
+  ASSERT_EQ(report.rows.size(), 5u);
+  EXPECT_EQ(report.rows[0].outcome, Outcome::kRefused);
+  for (int k = 1; k < 5; ++k) EXPECT_EQ(report.rows[k].outcome, Outcome::kFlown) << k;
+}
+
 TEST(Refusals, AnUnknownCaseNamesThoseThereAre) {
   EXPECT_TRUE(contains(refusal([] { sceneOfCase("boxes"); }), {"boxes", "dzhanibekov", "sphere"}));
 }

@@ -192,29 +192,29 @@ void writeMethods(const Report& report, const std::string& folder) {
   close(file, folder);
 }
 
-void writeSample(std::ostream& file, const std::string& rung, const ErrorSample& sample) {
+void writeSample(std::ostream& file, const Method& method, const ErrorSample& sample) {
   const Quaterniond& q = sample.q_WB;
-  file << rung << ',' << csv(sample.time_s) << ',' << csv(sample.errors.pose.attitude_rad) << ','
-       << csv(sample.errors.pose.position_m) << ',' << csv(sample.errors.energy) << ','
-       << csv(sample.errors.momentum) << ',' << csv(q.x()) << ',' << csv(q.y()) << ',' << csv(q.z())
-       << ',' << csv(q.w()) << '\n';
+  file << method.integrator << ',' << method.substeps << ',' << csv(sample.time_s) << ','
+       << csv(sample.errors.pose.attitude_rad) << ',' << csv(sample.errors.pose.position_m) << ','
+       << csv(sample.errors.energy) << ',' << csv(sample.errors.momentum) << ',' << csv(q.x())
+       << ',' << csv(q.y()) << ',' << csv(q.z()) << ',' << csv(q.w()) << '\n';
 }
 
 void writeFlights(const Report& report, const std::string& folder) {
   std::ofstream file = open(folder, "flights.csv");
-  file << "rung,time_s,attitude,position,energy,momentum,qx,qy,qz,qw\n";
+  file << "rung,substeps,time_s,attitude,position,energy,momentum,qx,qy,qz,qw\n";
   const Trajectory& truth = report.truth.trajectory;
   for (std::size_t k = 0; k < truth.samples.size(); ++k) {
     const double time_s =
         static_cast<double>(k) * static_cast<double>(truth.every) * report.scene.step_s();
-    writeSample(file, "reference",
+    writeSample(file, {"reference"},
                 {time_s, {}, truth.samples[k].state(shownBody(report.scene)).q_WB});
   }
   std::string last;
   for (const Row& row : report.rows) {
     if (row.method.integrator == last || row.flight.samples.empty()) continue;
     last = row.method.integrator;
-    for (const ErrorSample& sample : row.flight.samples) writeSample(file, last, sample);
+    for (const ErrorSample& sample : row.flight.samples) writeSample(file, row.method, sample);
   }
   close(file, folder);
 }

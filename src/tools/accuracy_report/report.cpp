@@ -91,13 +91,13 @@ double moreWork(const Row& row, const Row& before) {
 }
 
 /// Whether smaller steps make it no better any more: the last two are worse than one before.
-bool isRounding(const std::vector<Row>& flown, const Report& report) {
-  if (flown.size() < 3) return false;
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k + 2 < flown.size(); ++k)
-    best = std::min(best, errorOf(report, flown[k]));
-  return best < kSettled && errorOf(report, flown.back()) >= best &&
-         errorOf(report, flown[flown.size() - 2]) >= best;
+bool isRounding(const std::vector<Row>& rows, const Report& report) {
+  std::vector<double> errors;
+  for (const Row& row : rows)
+    if (row.outcome == Outcome::kFlown) errors.push_back(errorOf(report, row));
+  if (errors.size() < 3) return false;
+  const double best = *std::min_element(errors.begin(), errors.end() - 2);
+  return best < kSettled && *std::min_element(errors.end() - 2, errors.end()) >= best;
 }
 
 /// Flies a rung with ever smaller steps, as long as that makes it better, the true flight can tell
