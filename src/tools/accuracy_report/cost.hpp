@@ -8,7 +8,7 @@
 
 namespace rigid_body_sim::report {
 
-/// Wall time of a body's tick, all that a Simulator does in it included.
+/// Processor time of a body's tick, all that a Simulator does in it included.
 struct Cost {
   double median_ns = 0;
   double least_ns = 0;

@@ -44,7 +44,7 @@ const std::vector<Cells> kTitles = {
     {"", "substeps", "attitude [rad]", "", "position [m]", "", "energy", "|L|", "evaluations",
      "instructions", "time [ns]", "simulated s", "best at"},
     {"rung", "a tick", "max", "end", "max", "end", "max", "max", "a tick", "a body-tick",
-     "a body-tick", "a wall s", "its price"}};
+     "a body-tick", "a second", "its price"}};
 
 Cells cellsOf(const Report& report, const Row& row) {
   const Errors &worst = row.flight.worst, &end = row.flight.end;
@@ -223,13 +223,13 @@ void writeFlights(const Report& report, const std::string& folder) {
 
 void print(const Report& report, std::ostream& out) {
   out << shortSummary(report) << '\n'
-      << wrapped(
-             "Reference: " + report.truth.how + ". In doubt by at most " +
-             cell(report.truth.doubt.attitude_rad) + " rad and " +
-             cell(report.truth.doubt.position_m) +
-             " m: below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
-             "are relative to the reference's. The time is all that a tick takes, the median of "
-             "runs in turn.")
+      << wrapped("Reference: " + report.truth.how + ". In doubt by at most " +
+                 cell(report.truth.doubt.attitude_rad) + " rad and " +
+                 cell(report.truth.doubt.position_m) +
+                 " m: below that nothing can be told apart. Energy (kinetic) and |L| (of the spin) "
+                 "are relative to the reference's. The time is the processor's for all of a tick, "
+                 "the median of "
+                 "runs in turn.")
       << '\n';
   std::vector<Cells> rows = kTitles;
   for (const Row& row : report.rows) rows.push_back(cellsOf(report, row));

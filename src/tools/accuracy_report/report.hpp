@@ -75,7 +75,7 @@ void markFront(Report& report);
 /// `rk4`, `rk4 x 3`, `adaptive 1e-08`.
 std::string nameOf(const Row& row);
 
-/// Simulated seconds a wall second, of all bodies together.
+/// Simulated seconds a second of the processor, of all bodies together.
 double realTimeFactor(const Report& report, const Row& row);
 
 /// A case of the library as a scene.
