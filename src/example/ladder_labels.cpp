@@ -2,7 +2,7 @@
 // with an integrator of its own, and this node
 //   lets all of them go at once, as each starts paused
 //   puts them side by side on /tf, in step: always states of the same time
-//   says over each what its ticks cost and how far it is off the last rung, the exact one
+//   says over each what its steps cost and how far it is off the last rung, the exact one
 // A rung's frames are `<rung>/<frame>`; `<rung>/true/<frame>` is where the last rung has the body.
 
 #include <geometry_msgs/TransformStamped.h>
@@ -63,7 +63,7 @@ std::string inWords(double error) {
 struct Rung {
   std::string name;
   double y;                     // [m] where it is shown
-  double price;                 // of a tick, in those of semi-implicit Euler
+  double price;                 // of a step, in those of semi-implicit Euler
   double error = 0, worst = 0;  // [rad] now, and the largest so far
 };
 
@@ -170,7 +170,7 @@ class LadderLabels {
     addText("title", 0, kTitleHeight, 0.105, kWhite,
             "One T-handle, five integrators, " + print("%.0f s flown", (now_ - start_).toSec()));
     addText("title", 0, kTitleHeight - 0.13, 0.065, kGrey,
-            "solid: as each has it; faint: where it truly is. Price: a tick's time, in those of "
+            "solid: as each has it; faint: where it truly is. Price: a step's time, in those of "
             "semi-implicit Euler");
     for (const Rung& rung : rungs_) {
       addText("name", rung.y, kLabelHeight, 0.095, kWhite, rung.name);
