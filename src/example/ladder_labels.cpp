@@ -67,6 +67,8 @@ struct Rung {
   double error = 0, worst = 0;  // [rad] now, and the largest so far
 };
 
+Eigen::Quaterniond toEigen(const geometry_msgs::Quaternion& q) { return {q.w, q.x, q.y, q.z}; }
+
 class LadderLabels {
  public:
   LadderLabels() {
@@ -124,7 +126,6 @@ class LadderLabels {
   }
 
   static double angleBetween(const geometry_msgs::Pose& a, const geometry_msgs::Pose& b) {
-    const auto toEigen = [](const auto& q) { return Eigen::Quaterniond(q.w, q.x, q.y, q.z); };
     return rigid_body_sim::rotationLog(toEigen(a.orientation).conjugate() * toEigen(b.orientation))
         .norm();
   }

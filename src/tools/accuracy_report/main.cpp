@@ -153,20 +153,20 @@ std::vector<const char*> withoutRos(int argc, char** argv) {
 }  // namespace
 }  // namespace rigid_body_sim::report
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   rigid_body_sim::report::Arguments arguments;
   CLI::App app(
       "Flies a scene with every integrator and several step sizes, and says what accuracy costs in "
       "time.");
   rigid_body_sim::report::addOptions(app, arguments);
+  const std::vector<const char*> words = rigid_body_sim::report::withoutRos(argc, argv);
   try {
-    const std::vector<const char*> words = rigid_body_sim::report::withoutRos(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());
-    return run(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << std::endl;
-    return 1;
   }
+  return run(arguments);
+} catch (const std::exception& error) {
+  std::cerr << error.what() << std::endl;
+  return 1;
 }

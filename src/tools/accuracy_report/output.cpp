@@ -40,11 +40,12 @@ std::string errorCell(double error, double doubt) {
 }
 
 /// Two lines of titles, then a line a row.
-const std::vector<Cells> kTitles = {
-    {"", "substeps", "attitude [rad]", "", "position [m]", "", "energy", "|L|", "evaluations",
-     "instructions", "time [ns]", "simulated s", "best at"},
-    {"rung", "a tick", "max", "end", "max", "end", "max", "max", "a tick", "a body-tick",
-     "a body-tick", "a second", "its price"}};
+std::vector<Cells> titles() {
+  return {{"", "substeps", "attitude [rad]", "", "position [m]", "", "energy", "|L|", "evaluations",
+           "instructions", "time [ns]", "simulated s", "best at"},
+          {"rung", "a tick", "max", "end", "max", "end", "max", "max", "a tick", "a body-tick",
+           "a body-tick", "a second", "its price"}};
+}
 
 Cells cellsOf(const Report& report, const Row& row) {
   const Errors &worst = row.flight.worst, &end = row.flight.end;
@@ -71,7 +72,7 @@ Cells cellsOf(const Report& report, const Row& row) {
 
 /// Columns as wide as they need; the last cell of a short row may be longer than its column.
 void printTable(const std::vector<Cells>& rows, std::ostream& out) {
-  std::vector<std::size_t> widths(kTitles[0].size());
+  std::vector<std::size_t> widths(rows[0].size());
   for (const Cells& cells : rows)
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (i + 1 < cells.size() || cells.size() == widths.size())
@@ -231,7 +232,7 @@ void print(const Report& report, std::ostream& out) {
                  "the median of "
                  "runs in turn.")
       << '\n';
-  std::vector<Cells> rows = kTitles;
+  std::vector<Cells> rows = titles();
   for (const Row& row : report.rows) rows.push_back(cellsOf(report, row));
   printTable(rows, out);
   out << '\n';
