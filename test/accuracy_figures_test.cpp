@@ -145,7 +145,7 @@ TEST(AccuracyFigures, EnergyOfTheOthersAfterTenMinutes) {
 
 TEST(AccuracyFigures, NasasBrickEndsWithinNasasDigits) {
   const reference::Case& brick = reference::caseNamed("nesc_brick");
-  Simulator simulator(sceneOf(sceneBodyOf(brick)));
+  Simulator simulator(sceneOf(sceneBodyOf(brick), "exact"));
   for (int i = 0; i < 1500; ++i) simulator.step();
   const BodyState end = simulator.state(0);
   const double angle = angleBetween(end.q_WB, brick.published->q_B0B.normalized());
