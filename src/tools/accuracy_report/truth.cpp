@@ -10,12 +10,11 @@
 namespace rigid_body_sim::report {
 namespace {
 
-/// [rad] of rotation in one piece of the third way. A piece ends in doubles, so few are better; but
-/// the way's error grows faster than a piece, and 1e-9 is refused.
+/// [rad] of rotation in one piece of the third way: about as long as one takes few steps.
 constexpr double kPieceTurn = 5;
 constexpr double kMostTurns = 1e4;  // [rad] of all bodies together: some seconds
 
-/// Where the true flight is compared: at every so manieth sample, at least one.
+/// The samples between two at which the true flight is compared; at least one.
 std::size_t samplesAPiece(const Trajectory& truth, const Scene& scene, double angular_speed) {
   const double sample_s = static_cast<double>(truth.every) * scene.step_s();
   const double samples = kPieceTurn / std::max(angular_speed, 1e-9) / sample_s;
@@ -27,13 +26,15 @@ std::size_t samplesAPiece(const Trajectory& truth, const Scene& scene, double an
 Deviation differenceOf(const Trajectory& truth, const Scene& scene, Eigen::Index body,
                        std::size_t piece) {
   const Bodies& start = truth.samples.front();
+  const double piece_s =
+      static_cast<double>(piece) * static_cast<double>(truth.every) * scene.step_s();
+  reference::State state = reference::extended(start.state(body));
   Bodies flown = start;
-  const double sample_s = static_cast<double>(truth.every) * scene.step_s();
   Deviation worst;
   for (std::size_t k = piece; k < truth.samples.size(); k += piece) {
     const reference::Flight flight =
-        reference::fly(flown.state(body), start.mass(body), start.moments(body), reference::nothing,
-                       static_cast<double>(piece) * sample_s);
+        reference::fly(state, start.mass(body), start.moments(body), reference::nothing, piece_s);
+    state = flight.extended_end;
     flown.setState(body, flight.end);
     worst = worse(worst, deviation(flown, truth.samples[k], body));
   }
