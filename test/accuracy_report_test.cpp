@@ -114,9 +114,26 @@ TEST(BestKnown, ADoubtCoversWhatTheThirdWayFinds) {
   }
 }
 
+TEST(BestKnown, ChecksFlightsUnderEffectsToo) {
+  // Gravity: the position is known, and the third way agrees.
+  Scene scene = sceneOfCase("tumbling_stone");
+  scene.effects = {uniformGravity({0, 3, -10}, {0})};
+  const TrueTrajectory known = bestKnown(scene, 100, 10);
+  EXPECT_TRUE(contains(known.how, {"extended precision"}));
+  EXPECT_LT(known.doubt.attitude_rad, 1e-12);
+  EXPECT_LT(known.doubt.position_m, 1e-12);
+}
+
 TEST(BestKnown, KeepsToItselfWhatItCannotCheck) {
+  class Pair : public Effect {  // cannot be divided
+   public:
+    std::string name() const override { return "pair"; }
+    std::size_t bodyCount() const override { return 1; }
+    void addWrenches(const Bodies&, double, Wrenches&) const override {}
+  };
   Scene scene = sceneOfCase("sphere");
-  scene.effects = {uniformGravity({0, 0, -10}, {0})};
+  scene.bodies.push_back(genericSceneBody("other"));
+  scene.effects = {std::make_shared<Pair>()};
   EXPECT_EQ(bestKnown(scene, 50, 10).how, flyTruly(scene, 50, 10).how);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "reference/flight.hpp"
 #include "tools/accuracy_report/errors.hpp"
@@ -22,18 +24,52 @@ std::size_t samplesAPiece(const Trajectory& truth, const Scene& scene, double an
       std::max(1.0, std::min(samples, static_cast<double>(truth.samples.size() - 1))));
 }
 
+using Effects = std::vector<std::shared_ptr<const Effect>>;
+
+/// The effects on one body alone. None if one of several bodies cannot be had without the others.
+std::optional<Effects> effectsOn(const Scene& scene, Eigen::Index body) {
+  if (scene.bodies.size() == 1) return scene.effects;
+  Effects effects;
+  for (const auto& effect : scene.effects) {
+    effects.push_back(effect->restrictedTo({body}));
+    if (!effects.back()) return std::nullopt;
+  }
+  return effects;
+}
+
+/// What the effects do to the body, `start_s` after the flight's start and later. The effects see
+/// the state rounded to doubles.
+reference::PushLaw pushLaw(const Effects& effects, const Bodies& bodies, Eigen::Index body,
+                           double start_s) {
+  Bodies alone(1);
+  alone.mass(0) = bodies.mass(body);
+  alone.I_BBcm_B.row(0) = bodies.I_BBcm_B.row(body);
+  return [=](reference::Real time_s, const reference::State& state) mutable {
+    alone.setState(0, reference::rounded(state));
+    Wrenches wrenches = {Column3::Zero(1, 3), Column3::Zero(1, 3)};
+    for (const auto& effect : effects)
+      effect->addWrenches(alone, start_s + static_cast<double>(time_s), wrenches);
+    reference::Push push;
+    push.f_W = wrenches.f_W.row(0).transpose().cast<reference::Real>();
+    push.t_Bcm_W = wrenches.t_Bcm_W.row(0).transpose().cast<reference::Real>();
+    return push;
+  };
+}
+
 /// The largest difference of a body to its flight from the start in pieces of so many samples.
-Deviation differenceOf(const Trajectory& truth, const Scene& scene, Eigen::Index body,
-                       std::size_t piece) {
+Deviation differenceOf(const Trajectory& truth, const Scene& scene, const Effects& effects,
+                       Eigen::Index body, std::size_t piece) {
   const Bodies& start = truth.samples.front();
-  const double piece_s =
-      static_cast<double>(piece) * static_cast<double>(truth.every) * scene.step_s();
+  const double sample_s = static_cast<double>(truth.every) * scene.step_s();
+  const double piece_s = static_cast<double>(piece) * sample_s;
   reference::State state = reference::extended(start.state(body));
   Bodies flown = start;
   Deviation worst;
   for (std::size_t k = piece; k < truth.samples.size(); k += piece) {
+    const double start_s = static_cast<double>(k - piece) * sample_s;
     const reference::Flight flight =
-        reference::fly(state, start.mass(body), start.moments(body), reference::nothing, piece_s);
+        reference::fly(state, start.mass(body), start.moments(body),
+                       pushLaw(effects, start, body, start_s), piece_s);
     state = flight.extended_end;
     flown.setState(body, flight.end);
     worst = worse(worst, deviation(flown, truth.samples[k], body));
@@ -47,14 +83,17 @@ TrueTrajectory bestKnown(const Scene& scene, Tick ticks, Tick every) {
   TrueTrajectory truth = flyTruly(scene, ticks, every);
   const double angular_speed = largestAngularSpeed(truth.trajectory);
   const double time_s = static_cast<double>(ticks) * scene.step_s();
-  const bool is_free = scene.effects.empty() && scene.gyroscopic == Gyroscopic::kOn;
-  if (!is_free || angular_speed * time_s * static_cast<double>(scene.bodies.size()) > kMostTurns)
+  if (scene.gyroscopic == Gyroscopic::kOff ||
+      angular_speed * time_s * static_cast<double>(scene.bodies.size()) > kMostTurns)
     return truth;
   const std::size_t piece = samplesAPiece(truth.trajectory, scene, angular_speed);
   Deviation difference;
   try {
-    for (Eigen::Index i = 0; i < truth.trajectory.samples.front().count(); ++i)
-      difference = worse(difference, differenceOf(truth.trajectory, scene, i, piece));
+    for (Eigen::Index i = 0; i < truth.trajectory.samples.front().count(); ++i) {
+      const auto effects = effectsOn(scene, i);
+      if (!effects) return truth;
+      difference = worse(difference, differenceOf(truth.trajectory, scene, *effects, i, piece));
+    }
   } catch (const std::runtime_error&) {
     return truth;  // the third way does not converge here: it says nothing
   }
