@@ -17,7 +17,6 @@ double larger(double a, double b) {
   return std::max(a, b);
 }
 
-
 TrueTrajectory comparedWith(Trajectory best, const Trajectory& other, std::string how) {
   const Deviation doubt = deviation(best, other);
   return {std::move(best), doubt, std::move(how)};
@@ -27,11 +26,6 @@ TrueTrajectory comparedWith(Trajectory best, const Trajectory& other, std::strin
 double size(const Deviation& doubt) { return larger(doubt.attitude_rad, doubt.position_m); }
 
 }  // namespace
-
-std::string toText(const Method& method) {
-  if (method.substeps == 1) return method.integrator;
-  return method.integrator + " x " + std::to_string(method.substeps);
-}
 
 Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every) {
   if (every <= 0 || ticks < 0 || ticks % every != 0)
@@ -72,10 +66,9 @@ TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every) {
   TrueTrajectory best =
       comparedWith(fly(scene, {"exact"}, ticks, every), fly(scene, {"exact", 2}, ticks, every),
                    "exact, against itself in half steps");
-  const TrueTrajectory adaptive =
-      comparedWith(fly(scene, {"adaptive", 1, 1e-14}, ticks, every),
-                   fly(scene, {"adaptive", 1, 1e-12}, ticks, every),
-                   "adaptive with a tolerance of 1e-14, against 1e-12");
+  const TrueTrajectory adaptive = comparedWith(fly(scene, {"adaptive", 1, 1e-14}, ticks, every),
+                                               fly(scene, {"adaptive", 1, 1e-12}, ticks, every),
+                                               "adaptive with a tolerance of 1e-14, against 1e-12");
   return size(adaptive.doubt) < size(best.doubt) ? adaptive : best;
 }
 
