@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "rigid_body_sim/accuracy.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/scene.hpp"
 #include "rigid_body_sim/wrench.hpp"
@@ -76,6 +77,7 @@ class AppliedWrenches : public Effect {
   std::vector<WrenchInput> held_;  // ordered by body, source, sequence, entry
 };
 
+class AccuracyWatch;
 class Group;
 
 /// A body that turns further in a step than its method bears.
@@ -92,7 +94,8 @@ class Simulator {
  public:
   /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a frame twice, an
   /// invalid tensor, a pose that is no rigid transform, an unknown integrator, a step that is not
-  /// positive, an integrator that does not bear an effect or a body's spin.
+  /// positive, an integrator that does not bear an effect or a body's spin, an
+  /// accuracy that no method keeps.
   explicit Simulator(Scene scene);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -138,6 +141,9 @@ class Simulator {
 
   const std::vector<FrozenBody>& frozenBodies() const { return frozen_; }
 
+  /// Whether the scene's accuracy is kept; null if it asks for none.
+  const AccuracyState* accuracy() const;
+
   /// The worst of the bodies that inputs have made too fast for their method, if any. Looks at all
   /// bodies: not for every tick.
   std::optional<OverTurnedBody> overTurnedBody() const;
@@ -145,6 +151,7 @@ class Simulator {
  private:
   void addBody(const SceneBody& body);
   void makeGroups();
+  void replanIfDue();
   void latchInputs();
   void giveImpulses(std::vector<ImpulseInput> impulses);
   void freezeNonFinite(const Bodies& before);
@@ -156,6 +163,7 @@ class Simulator {
   Bodies before_;  // the state before the step, for freezing
   Tick tick_ = 0;
   std::vector<std::unique_ptr<Group>> groups_;
+  std::unique_ptr<AccuracyWatch> watch_;  // null: no accuracy asked for
   // At a fixed address, as the groups point to it and a simulator may be moved.
   std::unique_ptr<AppliedWrenches> applied_ = std::make_unique<AppliedWrenches>();
   std::vector<WrenchInput> pending_wrenches_;

@@ -41,8 +41,8 @@ struct TrueTrajectory {
   std::string how;  ///< both ways in words
 };
 
-/// The best that is known of a flight: `exact` where halving its step changes no more than
-/// rounding, else the adaptive method; whichever is in less doubt.
+/// The best that is known of a flight: `exact` if nothing acts on the bodies, else that or the
+/// adaptive method, whichever is in less doubt.
 TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every);
 
 }  // namespace rigid_body_sim

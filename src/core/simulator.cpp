@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/accuracy_plan.hpp"
+#include "core/accuracy_watch.hpp"
 #include "core/group.hpp"
 
 namespace rigid_body_sim {
@@ -99,6 +101,12 @@ Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
   for (const SceneBody& body : scene_.bodies) addBody(body);
   bodies_ = before_ = initial_;
+  if (scene_.accuracy) {
+    Bill bill = planFrom({scene_, bodies_, *applied_, tick_}, *scene_.accuracy);
+    requireKept(bill, scene_);
+    scene_.methods = methodsOf(bill);
+    watch_ = std::make_unique<AccuracyWatch>(std::move(bill), scene_);
+  }
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
   makeGroups();
@@ -186,17 +194,36 @@ void Simulator::freezeNonFinite(const Bodies& before) {
 void Simulator::step() {
   copyState(bodies_, before_);
   latchInputs();
+  replanIfDue();
+  if (watch_) watch_->beginTick({scene_, bodies_, *applied_, tick_});
   const double start_s = static_cast<double>(tick_) * scene_.step_s();
   for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());
   freezeNonFinite(before_);
+  if (watch_) watch_->endTick(bodies_, frozen_);
   ++tick_;
   assert(allFinite(bodies_));
 }
+
+void Simulator::replanIfDue() {
+  if (!watch_) return;
+  const std::optional<Eigen::Index> body = watch_->bodyToReplan();
+  if (!body) return;
+  watch_->replan(planAgain(watch_->state().bill, {scene_, bodies_, *applied_, tick_}, *body),
+                 *body);
+  scene_.methods = methodsOf(watch_->state().bill);
+  makeGroups();
+}
+
+const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->state() : nullptr; }
 
 void Simulator::reset() {
   copyState(initial_, bodies_);
   applied_->clear();
   for (const auto& group : groups_) group->hold(*applied_);
+  if (watch_ && watch_->reset()) {
+    scene_.methods = methodsOf(watch_->state().bill);
+    makeGroups();
+  }
   pending_wrenches_.clear();
   pending_impulses_.clear();
   ended_.clear();

@@ -1,0 +1,108 @@
+#include "core/accuracy_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/local_error.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+constexpr Tick kTicksBetweenSamples = 30;  // of one body
+
+bool isCoupled(const Scene& scene) { return !restrictedTo(scene.effects, {0}).has_value(); }
+
+}  // namespace
+
+AccuracyWatch::AccuracyWatch(Bill bill, const Scene& scene)
+    : first_(bill), tick_s_(scene.step_s()), is_coupled_(isCoupled(scene)) {
+  const auto count = static_cast<Tick>(scene.bodies.size());
+  apart_ =
+      is_coupled_ ? kTicksBetweenSamples * count : std::max<Tick>(1, kTicksBetweenSamples / count);
+  last_.resize(scene.bodies.size());
+  next_plan_.resize(scene.bodies.size(), 0);
+  take(std::move(bill));
+}
+
+void AccuracyWatch::take(Bill bill) {
+  methods_.resize(last_.size());
+  for (const ClassBill& one : bill.classes)
+    for (const Eigen::Index body : one.bodies) methods_[body] = one.chosen.method;
+  state_.bill = std::move(bill);
+}
+
+void AccuracyWatch::beginTick(const Situation& now) {
+  looked_at_.reset();
+  if (ticks_ % apart_ == 0) looked_at_ = is_coupled_ ? wholeOf(now) : partOf(now, {next_});
+}
+
+void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen) {
+  ++ticks_;
+  if (!looked_at_) return;
+  const Eigen::Index body = next_;
+  next_ = is_coupled_ ? 0 : (next_ + 1) % bodies.count();
+  const bool is_frozen = std::any_of(frozen.begin(), frozen.end(), [&](const FrozenBody& one) {
+    return is_coupled_ || one.body == body;
+  });
+  if (is_frozen) {
+    last_[body].reset();
+    return;
+  }
+  LocalError sample;
+  sample.tick = looked_at_->tick;
+  sample.body = body;
+  sample.error = localError(*looked_at_, rowsOf(bodies, looked_at_->indices), methods_[body]);
+  const double ticks = std::ceil(state_.bill.budget.over_s / tick_s_);
+  const Deviation& amplification = state_.bill.amplification[body];
+  sample.predicted = {ticks * amplification.attitude_rad * sample.error.attitude_rad,
+                      ticks * amplification.position_m * sample.error.position_m};
+  sample.share = kShareOfBudget * shareOf(state_.bill.budget, sample.predicted, {});
+  note(sample);
+}
+
+void AccuracyWatch::note(const LocalError& sample) {
+  ++state_.samples;
+  state_.latest = sample;
+  last_[sample.body] = sample;
+  if (!state_.worst_ever || sample.share > state_.worst_ever->share) state_.worst_ever = sample;
+  state_.worst_now.reset();
+  for (const auto& last : last_)
+    if (last && (!state_.worst_now || last->share > state_.worst_now->share))
+      state_.worst_now = last;
+}
+
+std::optional<Eigen::Index> AccuracyWatch::bodyToReplan() const {
+  if (!state_.bill.budget.replan || !state_.latest || state_.latest->share <= 1)
+    return std::nullopt;
+  const Eigen::Index body = state_.latest->body;
+  if (!last_[body] || ticks_ < next_plan_[body]) return std::nullopt;
+  return body;
+}
+
+void AccuracyWatch::replan(Bill bill, Eigen::Index body) {
+  const double pause = std::ceil(0.1 * bill.budget.over_s / tick_s_);
+  next_plan_[body] = ticks_ + std::max<Tick>(1, static_cast<Tick>(pause));
+  take(std::move(bill));
+  ++state_.bills;
+  last_[body].reset();  // of the method before
+  state_.latest.reset();
+  state_.worst_now.reset();
+  next_ = body;  // how the new choice does is the first thing to know
+}
+
+bool AccuracyWatch::reset() {
+  const bool is_another = state_.bills > 1;
+  const int bills = state_.bills;
+  state_ = AccuracyState();
+  state_.bills = is_another ? bills + 1 : bills;
+  take(first_);
+  ticks_ = 0;
+  next_ = 0;
+  looked_at_.reset();
+  std::fill(last_.begin(), last_.end(), std::nullopt);
+  std::fill(next_plan_.begin(), next_plan_.end(), 0);
+  return is_another;
+}
+
+}  // namespace rigid_body_sim
