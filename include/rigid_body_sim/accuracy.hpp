@@ -77,7 +77,7 @@ struct LocalError {
   Deviation error;      ///< of the tick
   Deviation predicted;  ///< over the budget's span, if all ticks were like this one: the error by
                         ///< the span's ticks and the amplification that the bill measured
-  double share = 0;  ///< what share of the budget the prediction takes; more than 1 breaks it
+  double share = 0;     ///< what share of the budget the prediction takes; more than 1 breaks it
 };
 
 /// Whether a running simulation keeps its budget. Bodies are looked at in turn, one tick of one
@@ -93,5 +93,11 @@ struct AccuracyState {
 
   bool keepsBudget() const { return !worst_now || worst_now->share <= 1; }
 };
+
+/// `rk8 x 2: rocket, probe and 3 more`.
+std::string summary(const ClassBill& one, const Scene& scene);
+
+/// `rocket: 1e-12 rad and 0 m in tick 60, so 2e-08 rad and 0 m over the span`.
+std::string toText(const LocalError& sample, const Scene& scene);
 
 }  // namespace rigid_body_sim

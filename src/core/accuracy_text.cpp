@@ -42,6 +42,20 @@ std::string comparison(const std::optional<Offer>& offer, const Offer& chosen,
 
 }  // namespace
 
+std::string summary(const ClassBill& one, const Scene& scene) {
+  return toText(one.chosen.method) + ": " + namesOf(one.bodies, scene);
+}
+
+std::string toText(const LocalError& sample, const Scene& scene) {
+  std::ostringstream text;
+  text.precision(2);
+  text << scene.bodies[sample.body].name << ": " << sample.error.attitude_rad << " rad and "
+       << sample.error.position_m << " m in tick " << sample.tick << ", so "
+       << sample.predicted.attitude_rad << " rad and " << sample.predicted.position_m
+       << " m over the span";
+  return text.str();
+}
+
 std::string toText(const Bill& bill, const Scene& scene) {
   std::ostringstream text;
   text.precision(3);

@@ -45,10 +45,7 @@ void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>&
   const bool is_frozen = std::any_of(frozen.begin(), frozen.end(), [&](const FrozenBody& one) {
     return is_coupled_ || one.body == body;
   });
-  if (is_frozen) {
-    last_[body].reset();
-    return;
-  }
+  if (is_frozen) return forget(body);
   LocalError sample;
   sample.tick = looked_at_->tick;
   sample.body = body;
@@ -66,6 +63,19 @@ void AccuracyWatch::note(const LocalError& sample) {
   state_.latest = sample;
   last_[sample.body] = sample;
   if (!state_.worst_ever || sample.share > state_.worst_ever->share) state_.worst_ever = sample;
+  if (!state_.worst_now || sample.share >= state_.worst_now->share) {
+    state_.worst_now = sample;
+  } else if (state_.worst_now->body == sample.body) {
+    findWorst();
+  }
+}
+
+void AccuracyWatch::forget(Eigen::Index body) {
+  last_[body].reset();
+  findWorst();
+}
+
+void AccuracyWatch::findWorst() {
   state_.worst_now.reset();
   for (const auto& last : last_)
     if (last && (!state_.worst_now || last->share > state_.worst_now->share))
@@ -85,9 +95,7 @@ void AccuracyWatch::replan(Bill bill, Eigen::Index body) {
   next_plan_[body] = ticks_ + std::max<Tick>(1, static_cast<Tick>(pause));
   take(std::move(bill));
   ++state_.bills;
-  last_[body].reset();  // of the method before
-  state_.latest.reset();
-  state_.worst_now.reset();
+  forget(body);  // it was of the method before
   next_ = body;  // how the new choice does is the first thing to know
 }
 

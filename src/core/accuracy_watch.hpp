@@ -32,9 +32,10 @@ class AccuracyWatch {
   const AccuracyState& state() const { return state_; }
 
  private:
-  Method methodOf(Eigen::Index body) const { return methods_[body]; }
   void take(Bill bill);
   void note(const LocalError& sample);
+  void forget(Eigen::Index body);
+  void findWorst();
 
   AccuracyState state_;
   Bill first_;
