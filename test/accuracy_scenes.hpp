@@ -37,8 +37,8 @@ struct VaryingTorque {
   template <class S>
   Pushed<S> operator()(S time_s, const Moving<S>& body) const {
     const Vector3<S> phase = time_s * rate.cast<S>();
-    return {Vector3<S>::Zero(), body.q * Vector3<S>(amplitude.cast<S>().array() *
-                                                    phase.array().cos())};
+    return {Vector3<S>::Zero(),
+            body.q * Vector3<S>(amplitude.cast<S>().array() * phase.array().cos())};
   }
 };
 
@@ -74,8 +74,7 @@ struct Thruster {
   Vector3d f_B, p_BcmQ_B;
   template <class S>
   Pushed<S> operator()(S, const Moving<S>& body) const {
-    return {body.q * Vector3<S>(f_B.cast<S>()),
-            body.q * Vector3<S>(p_BcmQ_B.cross(f_B).cast<S>())};
+    return {body.q * Vector3<S>(f_B.cast<S>()), body.q * Vector3<S>(p_BcmQ_B.cross(f_B).cast<S>())};
   }
 };
 
@@ -222,7 +221,8 @@ inline std::vector<TrueScene> tenScenes(int swarm_count = 200) {
       forcedScene("thruster", bodyOf("rocket", I, w), Thruster{{0.4, 0.1, -0.2}, {0.1, 0.3, 0.2}}),
       forcedScene("spinner", bodyOf("top", {0.01, 0.02, 0.03}, {50, 1, 80}),
                   VaryingTorque{{2e-3, 1e-3, -2e-3}, {0.7, 1.1, 0.4}}),
-      forcedScene("sphere", bodyOf("ball", {1, 1, 1}, w), Pendulum{{0.5, -0.3, 0.8}, {0.2, 0.4, 0}}),
+      forcedScene("sphere", bodyOf("ball", {1, 1, 1}, w),
+                  Pendulum{{0.5, -0.3, 0.8}, {0.2, 0.4, 0}}),
       freeScene("rod", bodyOf("rod", {1e-6, 1, 1}, {10, 1, 2})),
       point,
       swarmScene(swarm_count),

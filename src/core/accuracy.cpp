@@ -20,7 +20,7 @@ constexpr std::size_t kMostFlown = 256;
 constexpr double kMostTicks = 600'000;
 constexpr double kMostSteps = 6e7;
 constexpr double kMostStepsPerTick = 1000;
-constexpr double kMostSamples = 1000;
+constexpr double kMostSamples = 10'000;
 
 Budget scaled(Budget budget, double factor) {
   budget.attitude_rad *= factor;
@@ -91,10 +91,10 @@ class Choice {
     const double share = shareOf(bill_.budget, offer.error, trials->doubt());
     const std::size_t place = placeOf(offer.method);
     ClassBill& one = bill_.classes[place];
-    const Deviation amplification = trials->amplification(offer);
+    const Forecast forecast = trials->forecast(offer);
     for (const Eigen::Index body : part.indices) {
       one.bodies.push_back(body);
-      bill_.amplification[body] = amplification;
+      bill_.forecasts[body] = forecast;
     }
     one.flown += part.indices.size();
     bill_.body_steps += trials->bodySteps();
@@ -113,7 +113,7 @@ class Choice {
   void addUnflown(Eigen::Index body, std::size_t place) {
     ClassBill& one = bill_.classes[place];
     one.bodies.push_back(body);
-    bill_.amplification[body] = bill_.amplification[one.hardest];
+    bill_.forecasts[body] = bill_.forecasts[one.hardest];
   }
 
   double costOf(std::size_t place) const { return bill_.classes[place].chosen.cost; }
@@ -170,7 +170,7 @@ Bill planFrom(const Situation& now, const Budget& budget) {
   Bill bill;
   bill.budget = budget;
   bill.tick = now.tick;
-  bill.amplification.resize(static_cast<std::size_t>(now.bodies.count()));
+  bill.forecasts.resize(static_cast<std::size_t>(now.bodies.count()));
   std::vector<Part> parts = partsOf(now);
   const std::size_t flown = std::min(parts.size(), kMostFlown);
   Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));

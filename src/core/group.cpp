@@ -89,7 +89,7 @@ std::string objection(const Method& method, const EffectList& effects) {
            std::to_string(method.substeps);
   if (!(method.tolerance > 0)) return "the tolerance must be positive";
   for (const auto& effect : effects)
-    if (row.order_under_drag == 0 && effect->dependsOnVelocity())
+    if (row.order > 0 && row.order_under_drag == 0 && effect->dependsOnVelocity())
       return "integrator '" + row.name + "' has steps back in time, in which '" + effect->name() +
              "' would feed energy: it depends on velocities; take rk4 or rk8";
   return {};
@@ -108,7 +108,7 @@ std::string objection(const Method& method, double rate, double tick_s) {
 
 std::string caution(const Method& method, const EffectList& effects) {
   const IntegratorRow& row = integratorNamed(method.integrator);
-  if (row.order_under_drag >= row.order) return {};
+  if (row.order_under_drag >= row.order || row.order_under_drag == 0) return {};
   for (const auto& effect : effects)
     if (effect->dependsOnVelocity())
       return effect->name() + " depends on velocities: " + row.name + " is of order " +

@@ -32,8 +32,8 @@ class Trials {
   /// Of all flown so far the one that leaves the least of `budget`.
   Offer best(const Budget& budget) const;
 
-  /// Error over the span by its ticks times the largest local error that the method makes.
-  Deviation amplification(const Offer& offer) const;
+  /// Measures the local errors that the method makes.
+  Forecast forecast(const Offer& offer) const;
 
   /// Over the whole span.
   Deviation doubt() const;
