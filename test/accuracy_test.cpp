@@ -93,7 +93,7 @@ double worstError(const TrueScene& one, const Trajectory& truth, double budget) 
       worst = std::max(worst, errorOf(one, deviation(simulator.bodies(), truth.samples[tick], i)));
   }
   EXPECT_TRUE(simulator.accuracy()->keepsBudget()) << one.name << " " << budget;
-  EXPECT_LE(simulator.accuracy()->worst_ever->share, 1) << one.name << " " << budget;
+  EXPECT_LE(simulator.accuracy()->worst_ever->share, kAlarm) << one.name << " " << budget;
   return worst;
 }
 

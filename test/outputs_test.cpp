@@ -239,7 +239,7 @@ TEST_F(Outputs, DiagnosticsSayOnceASecondWhatIsSimulatedAndHowItGoes) {
   EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK) << status.message;
   EXPECT_EQ(status.count("tick"), now.tick);
   EXPECT_NE(status.values.at("scene").find("2 bodies"), std::string::npos);
-  EXPECT_NE(status.values.at("scene").find("split2, step 0.02 s"), std::string::npos);
+  EXPECT_NE(status.values.at("scene").find("exact, step 0.02 s"), std::string::npos);
   EXPECT_EQ(status.values.at("real-time factor wanted"), "1");
   for (const char* key :
        {"real-time factor", "overruns", "times that lost time was given up", "inputs accepted",

@@ -25,7 +25,7 @@ TEST(Scene, OfOneBodyHasTheDefaultsOfTheRest) {
   const Scene scene = sceneFrom("bodies: {b: {sphere: {radius: 0.5, density: 3}}}");
   EXPECT_EQ(scene.step_ns, 20'000'000);
   EXPECT_EQ(scene.step_s(), 0.02);
-  EXPECT_EQ(scene.integrator, "split2");
+  EXPECT_EQ(scene.integrator, "exact");
   EXPECT_EQ(scene.gyroscopic, Gyroscopic::kOn);
   EXPECT_TRUE(scene.effects.empty());
   EXPECT_EQ(scene.import_report, "");
@@ -146,7 +146,7 @@ TEST(SceneSummary, SaysInOneLineWhatIsSimulated) {
       summary(sceneFrom("{step_s: 0.005, effects: {gravity: {acceleration: [0, 0, -9.8]}, "
                         "gyroscopic: false}, bodies: {a: {point_mass: 1}, b: {point_mass: 2, "
                         "gravity: false}}}")),
-      "2 bodies; effects: gravity (1 body), gyroscopic off; integrator: split2, step 0.005 s");
+      "2 bodies; effects: gravity (1 body), gyroscopic off; integrator: exact, step 0.005 s");
 }
 
 struct BadScene {

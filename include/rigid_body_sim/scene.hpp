@@ -43,7 +43,7 @@ struct Budget {
 /// All that a simulation starts from.
 struct Scene {
   std::int64_t step_ns = 20'000'000;
-  std::string integrator = "split2";
+  std::string integrator = "exact";
   int substeps = 1;          ///< steps of the integrator a tick
   double tolerance = 1e-12;  ///< see IntegratorOptions
   /// Bodies by the method that steps them, each body once; empty: all by `integrator`.
@@ -87,7 +87,7 @@ inline Method methodOf(const Scene& scene) {
 }
 
 /// One line that says what is simulated: `3 bodies; effects: gravity (2 bodies), gyroscopic on;
-/// integrator: split2, step 0.02 s`.
+/// integrator: exact, step 0.02 s`.
 std::string summary(const Scene& scene);
 
 }  // namespace rigid_body_sim

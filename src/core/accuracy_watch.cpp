@@ -50,12 +50,23 @@ void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>&
   sample.tick = looked_at_->tick;
   sample.body = body;
   sample.error = localError(*looked_at_, rowsOf(bodies, looked_at_->indices), methods_[body]);
-  const double ticks = std::ceil(state_.bill.budget.over_s / tick_s_);
-  const Deviation& amplification = state_.bill.amplification[body];
-  sample.predicted = {ticks * amplification.attitude_rad * sample.error.attitude_rad,
-                      ticks * amplification.position_m * sample.error.position_m};
+  sample.predicted = predictedFrom(sample.error, roundingOfTick(looked_at_->bodies, tick_s_),
+                                   state_.bill.forecasts[body]);
   sample.share = kShareOfBudget * shareOf(state_.bill.budget, sample.predicted, {});
   note(sample);
+}
+
+Deviation AccuracyWatch::predictedFrom(const Deviation& error, const Deviation& rounding,
+                                       const Forecast& forecast) const {
+  const double ticks = std::ceil(state_.bill.budget.over_s / tick_s_);
+  const auto predicted = [&](double local, double least, double amplification, double planned) {
+    const double sum = ticks * amplification * local;
+    return local <= least ? std::min(sum, planned) : sum;
+  };
+  return {predicted(error.attitude_rad, rounding.attitude_rad, forecast.amplification.attitude_rad,
+                    forecast.error.attitude_rad),
+          predicted(error.position_m, rounding.position_m, forecast.amplification.position_m,
+                    forecast.error.position_m)};
 }
 
 void AccuracyWatch::note(const LocalError& sample) {
@@ -83,7 +94,7 @@ void AccuracyWatch::findWorst() {
 }
 
 std::optional<Eigen::Index> AccuracyWatch::bodyToReplan() const {
-  if (!state_.bill.budget.replan || !state_.latest || state_.latest->share <= 1)
+  if (!state_.bill.budget.replan || !state_.latest || state_.latest->share <= kAlarm)
     return std::nullopt;
   const Eigen::Index body = state_.latest->body;
   if (!last_[body] || ticks_ < next_plan_[body]) return std::nullopt;

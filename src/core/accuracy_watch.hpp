@@ -33,6 +33,8 @@ class AccuracyWatch {
 
  private:
   void take(Bill bill);
+  Deviation predictedFrom(const Deviation& error, const Deviation& rounding,
+                          const Forecast& forecast) const;
   void note(const LocalError& sample);
   void forget(Eigen::Index body);
   void findWorst();

@@ -205,7 +205,7 @@ Offer Trials::best(const Budget& budget) const {
   return best;
 }
 
-Deviation Trials::amplification(const Offer& offer) const {
+Forecast Trials::forecast(const Offer& offer) const {
   Flight flight(part_, offer.method);
   Part before = part_;
   Deviation local;
@@ -224,10 +224,11 @@ Deviation Trials::amplification(const Offer& offer) const {
     return error / (ticks * local_error);
   };
   const Deviation rounding = roundingOfTick(part_.bodies, part_.tick_s);
-  return {
-      ratio(offer.error.attitude_rad + doubt().attitude_rad, local.attitude_rad,
-            rounding.attitude_rad),
-      ratio(offer.error.position_m + doubt().position_m, local.position_m, rounding.position_m)};
+  const Deviation error = {offer.error.attitude_rad + doubt().attitude_rad,
+                           offer.error.position_m + doubt().position_m};
+  return {error,
+          {ratio(error.attitude_rad, local.attitude_rad, rounding.attitude_rad),
+           ratio(error.position_m, local.position_m, rounding.position_m)}};
 }
 
 }  // namespace rigid_body_sim

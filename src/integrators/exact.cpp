@@ -1,22 +1,205 @@
+#include <vector>
+
+#include "integrators/coasting.hpp"
+#include "integrators/drift.hpp"
 #include "integrators/exact_rotation.hpp"
 #include "integrators/families.hpp"
-#include "integrators/kick_drift_kick.hpp"
+#include "integrators/kick.hpp"
 
 namespace rigid_body_sim {
 namespace {
 
-/// Without torque right to rounding at any step.
-struct ExactRotation {
-  Quaterniond operator()(const BodyState& body, const Vector3d& I, double h) const {
-    const Vector3d m_B = body.q_WB.conjugate() * body.L_WBcm_W;
-    return renormalized(body.q_WB * exactRotation(m_B, I, h).q_BBnext);
-  }
+/// A symmetric sequence kick - drift - kick - ... - drift - kick; each number is a fraction of the
+/// step, one more kick than drifts. Time goes on in the drifts.
+struct Composition {
+  std::vector<double> kicks;
+  std::vector<double> drifts;
 };
+
+/// The whole sequence from its first half; the middle one of the drifts or kicks stands once.
+Composition mirrored(std::vector<double> kicks, std::vector<double> drifts) {
+  const bool middle_is_kick = kicks.size() > drifts.size();
+  const auto append = [](std::vector<double>& list, bool has_middle) {
+    const std::vector<double> first = list;
+    list.insert(list.end(), first.rbegin() + (has_middle ? 1 : 0), first.rend());
+  };
+  append(kicks, middle_is_kick);
+  append(drifts, !middle_is_kick);
+  return {std::move(kicks), std::move(drifts)};
+}
+
+Composition strang() { return {{0.5, 0.5}, {1}}; }
+
+/// S. Blanes and P.C. Moan, J. Comput. Appl. Math. 142 (2002) 313, Runge-Kutta-Nystroem methods
+/// SRKN_6^b of order 4 and SRKN_11^b of order 6. They want [V, [V, [V, T]]] = 0: here, as T is
+/// quadratic in the momenta.
+Composition blanesMoan4() {
+  constexpr double b1 = 0.0829844064174052, b2 = 0.396309801498368, b3 = -0.0390563049223486;
+  constexpr double a1 = 0.245298957184271, a2 = 0.604872665711080;
+  return mirrored({b1, b2, b3, 1 - 2 * (b1 + b2 + b3)}, {a1, a2, 0.5 - (a1 + a2)});
+}
+
+Composition blanesMoan6() {
+  constexpr double b1 = 0.0414649985182624, b2 = 0.198128671918067, b3 = -0.0400061921041533,
+                   b4 = 0.0752539843015807, b5 = -0.0115113874206879;
+  constexpr double a1 = 0.123229775946271, a2 = 0.290553797799558, a3 = -0.127049212625417,
+                   a4 = -0.246331761062075, a5 = 0.357208872795928;
+  return mirrored({b1, b2, b3, b4, b5, 0.5 - (b1 + b2 + b3 + b4 + b5)},
+                  {a1, a2, a3, a4, a5, 1 - 2 * (a1 + a2 + a3 + a4 + a5)});
+}
+
+/// m = R^T L, rounded once: a thin rod's own spin is a small difference in it.
+Vector3d momentumInBody(const Quaterniond& q_WB, const Vector3d& L_W) {
+  using Real = long double;
+  const Eigen::Quaternion<Real> q = q_WB.cast<Real>().normalized();
+  return (q.conjugate() * L_W.cast<Real>()).cast<double>();
+}
+
+/// What the method remembers of a body between steps, besides its state. It holds as long as
+/// attitude and angular momentum are those that it left behind; whoever changes them need not know.
+struct Spin {
+  Quaterniond q_WB;
+  Vector3d L_W;
+  /// In body axes. Kept along, not made of L again: R^T L would lose the own spin of a thin rod.
+  /// Not up to date while coasting.
+  Vector3d m_B;
+  InverseMoments a;
+  double drift_s = 0;        ///< the latest drift, if nothing turned the momentum since
+  bool is_coasting = false;  ///< `coasting` holds
+  Coasting coasting = {};
+};
+
+/// Kicks and exact free flight between them.
+class Exact : public Integrator {
+ public:
+  explicit Exact(Composition composition) : composition_(std::move(composition)) {}
+
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    recall(bodies);
+    if (effects.empty()) return drift(bodies, h);
+    double t = time_s;
+    for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
+      kick(bodies, effects.evaluate(bodies, t), composition_.kicks[i] * h);
+      if (i == composition_.drifts.size()) break;
+      drift(bodies, composition_.drifts[i] * h);
+      t += composition_.drifts[i] * h;
+    }
+  }
+
+ private:
+  /// Takes up the bodies that somebody else has moved.
+  void recall(const Bodies& bodies) {
+    const auto known = static_cast<Eigen::Index>(spins_.size());
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      const Eigen::Vector4d q_WB = bodies.q_WB.row(i);
+      const Vector3d L_W = bodies.L_WBcm_W.row(i);
+      if (i < known && spins_[i].q_WB.coeffs() == q_WB && spins_[i].L_W == L_W) continue;
+      const Spin spin = {Quaterniond(q_WB), L_W, momentumInBody(Quaterniond(q_WB), L_W),
+                         InverseMoments(bodies.moments(i))};
+      if (i < known)
+        spins_[i] = spin;
+      else
+        spins_.push_back(spin);
+    }
+  }
+
+  void kick(Bodies& bodies, const Wrenches& wrenches, double h) {
+    bodies.P_WB += h * wrenches.f_W;
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      const Vector3d t_W = wrenches.t_Bcm_W.row(i);
+      if (t_W.isZero(0)) continue;
+      Spin& spin = spins_[i];
+      if (spin.is_coasting) spin.m_B = spin.coasting.m_B();
+      spin.is_coasting = false;
+      spin.drift_s = 0;
+      spin.L_W += h * t_W;
+      spin.m_B += spin.q_WB.conjugate() * (h * t_W);
+      bodies.L_WBcm_W.row(i) = spin.L_W;
+    }
+  }
+
+  void drift(Bodies& bodies, double h) {
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      bodies.p_WBcm.row(i) += (h / bodies.mass(i)) * bodies.P_WB.row(i);
+      Spin& spin = spins_[i];
+      // Without spin, as a point mass always is, there is no rotation to compute.
+      if (spin.L_W.isZero(0)) continue;
+      if (spin.drift_s == h)
+        coast(spin, bodies.moments(i), h);
+      else
+        rotate(spin, bodies.moments(i), h);
+      bodies.q_WB.row(i) = spin.q_WB.coeffs();
+    }
+  }
+
+  static void rotate(Spin& spin, const Vector3d& I, double h) {
+    if (spin.is_coasting) spin.m_B = spin.coasting.m_B();
+    spin.is_coasting = false;
+    spin.drift_s = h;
+    const FreeRotation free = exactRotation(spin.m_B, I, spin.a, h);
+    spin.q_WB = renormalized(spin.q_WB * free.q_BBnext);
+    spin.m_B = free.m_B;
+    align(spin);
+  }
+
+  /// The second equal drift in a row without torque, and all that follow.
+  static void coast(Spin& spin, const Vector3d& I, double h) {
+    if (!spin.is_coasting) spin.coasting = Coasting(spin.q_WB, spin.m_B, I, h);
+    spin.is_coasting = true;
+    spin.q_WB = spin.coasting.step();
+  }
+
+  /// R m and L wander apart by roundings; the shortest turn of the body puts them together again.
+  static void align(Spin& spin) {
+    const Vector3d L_W = spin.q_WB * spin.m_B;
+    const double size2 = spin.L_W.squaredNorm();
+    if ((L_W - spin.L_W).squaredNorm() <= 1e-28 * size2) return;
+    const Vector3d half = (0.5 / size2) * L_W.cross(spin.L_W);
+    spin.q_WB = renormalized(Quaterniond(1, half.x(), half.y(), half.z()) * spin.q_WB);
+  }
+
+  Composition composition_;
+  std::vector<Spin> spins_;
+};
+
+/// The same kicks without the gyroscopic term.
+class Ungyroscopic : public Integrator {
+ public:
+  explicit Ungyroscopic(Composition composition) : composition_(std::move(composition)) {}
+
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    struct Unused {};
+    if (effects.empty()) return drift<Unused, Gyroscopic::kOff>(bodies, h);
+    double t = time_s;
+    for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
+      kick(bodies, effects.evaluate(bodies, t), composition_.kicks[i] * h);
+      if (i == composition_.drifts.size()) break;
+      drift<Unused, Gyroscopic::kOff>(bodies, composition_.drifts[i] * h);
+      t += composition_.drifts[i] * h;
+    }
+  }
+
+ private:
+  Composition composition_;
+};
+
+std::unique_ptr<Integrator> make(Composition composition, const IntegratorOptions& options) {
+  if (options.gyroscopic == Gyroscopic::kOn) return std::make_unique<Exact>(std::move(composition));
+  return std::make_unique<Ungyroscopic>(std::move(composition));
+}
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeExact(const IntegratorOptions& options) {
-  return makeKickDriftKick<ExactRotation>(options);
+  return make(strang(), options);
+}
+
+std::unique_ptr<Integrator> makeExact4(const IntegratorOptions& options) {
+  return make(blanesMoan4(), options);
+}
+
+std::unique_ptr<Integrator> makeExact6(const IntegratorOptions& options) {
+  return make(blanesMoan6(), options);
 }
 
 }  // namespace rigid_body_sim

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rigid_body_sim/conventions.hpp"
+#include "integrators/orbit.hpp"
 
 namespace rigid_body_sim {
 
@@ -22,5 +22,9 @@ struct FreeRotation {
 /// J. Comput. Phys. 225 (2007) 145; Celledoni, Fasso, Safstrom and Zanna, SIAM J. Sci. Comput. 30
 /// (2008) 2084.
 FreeRotation exactRotation(const Vector3d& m_B, const Vector3d& I, double h);
+
+/// The same with InverseMoments(I), which need not be worked out each time.
+FreeRotation exactRotation(const Vector3d& m_B, const Vector3d& I, const InverseMoments& a,
+                           double h);
 
 }  // namespace rigid_body_sim

@@ -59,6 +59,21 @@ Jacobi jacobiByAgm(double v, double k2, double kc2) {
   return {s, cosine, std::sqrt(cosine * cosine + kc2 * s * s)};
 }
 
+/// Numbers of the series in integralOfThirdKind(), so that it divides nothing.
+struct Ratios {
+  double weight;  // 1 / (2 j + 3)
+  double now;     // (j + 1/2) / (j + 1)
+  double before;  // j / (j + 1)
+};
+
+constexpr std::array<Ratios, 11> kRatios = [] {
+  std::array<Ratios, 11> ratios = {};
+  for (int j = 1; j <= 11; ++j)
+    ratios[static_cast<std::size_t>(j - 1)] = {1.0 / (2 * j + 3), (j + 0.5) / (j + 1),
+                                               static_cast<double>(j) / (j + 1)};
+  return ratios;
+}();
+
 }  // namespace
 
 Jacobi jacobi(double v, double k2, double kc2) {
@@ -89,11 +104,13 @@ double integralOfThirdKind(const Jacobi& f, double k2, double n, double one_minu
   // integrated. At its worst, n = k = 1 and x = 0.03, the first term left out is 8e-19 of the sum.
   double p_before = 1, p = 0.5 * (1 + k2);  // p_0, p_1
   double c = 1, power = 1, sum = 1.0 / 3;
-  for (int j = 1; j <= 11; ++j) {
+  for (const Ratios& ratio : kRatios) {
     c = p + n * c;
     power *= s2;
-    sum += c * power / (2 * j + 3);
-    const double p_after = ((j + 0.5) * (1 + k2) * p - j * k2 * p_before) / (j + 1);
+    const double term = c * power * ratio.weight;
+    sum += term;
+    if (std::abs(term) < 1e-18) break;  // sum is above 1/3, and later terms are smaller still
+    const double p_after = ratio.now * (1 + k2) * p - ratio.before * k2 * p_before;
     p_before = p;
     p = p_after;
   }

@@ -14,16 +14,33 @@ struct Velocities {
   Vector3d w_WB;
 };
 
-/// w' in body axes: I w' = t - w x I w, the last term only if the gyroscopic effect is on.
-template <Gyroscopic gyroscopic>
-Vector3d angularAcceleration(const Vector3d& w_B, const Vector3d& t_B, const Vector3d& I) {
-  if constexpr (gyroscopic == Gyroscopic::kOff) return t_B.cwiseQuotient(I);
-  return (t_B - w_B.cross(Vector3d(I.cwiseProduct(w_B)))).cwiseQuotient(I);
+/// Angular velocity in body axes after the gyroscopic term alone, backwards Euler: one Newton step
+/// for I (w' - w) + h w' x I w' = 0 from w' = w (E. Catto, Numerical Methods, GDC 2015).
+Vector3d newtonGyroscopic(const Vector3d& w_B, const Vector3d& I, double h) {
+  const Vector3d m_B = I.cwiseProduct(w_B);
+  const Vector3d residual = h * w_B.cross(m_B);
+  // I + h ([w] I - [I w])
+  Matrix3d slope;
+  slope << I(0), -h * (w_B.z() * I(1) - m_B.z()), h * (w_B.y() * I(2) - m_B.y()),
+      h * (w_B.z() * I(0) - m_B.z()), I(1), -h * (w_B.x() * I(2) - m_B.x()),
+      -h * (w_B.y() * I(0) - m_B.y()), h * (w_B.x() * I(1) - m_B.x()), I(2);
+  return w_B - slope.inverse() * residual;
 }
 
 enum class PoseMovesWith { kOldVelocity, kNewVelocity };
+enum class Gyration { kNone, kExplicit, kNewton };
 
-template <PoseMovesWith pose_moves_with, Gyroscopic gyroscopic>
+/// w_B after h from I w' = t - w x I w, whose last term is the gyroscopic one.
+template <Gyration gyration>
+Vector3d nextAngularVelocity(const Vector3d& w_B, const Vector3d& t_B, const Vector3d& I,
+                             double h) {
+  if constexpr (gyration == Gyration::kNone) return w_B + h * t_B.cwiseQuotient(I);
+  if constexpr (gyration == Gyration::kNewton)
+    return newtonGyroscopic(w_B + h * t_B.cwiseQuotient(I), I, h);
+  return w_B + h * (t_B - w_B.cross(Vector3d(I.cwiseProduct(w_B)))).cwiseQuotient(I);
+}
+
+template <PoseMovesWith pose_moves_with, Gyration gyration>
 class VelocityEuler : public Integrator {
  public:
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
@@ -45,7 +62,7 @@ class VelocityEuler : public Integrator {
     const Vector3d t_B = body.q_WB.conjugate() * applied.t_Q_F;
     const Velocities old = {velocity(body, mass), body.q_WB * w_B};
     const Velocities next = {old.v_WBcm + (h / mass) * applied.f_F,
-                             body.q_WB * (w_B + h * angularAcceleration<gyroscopic>(w_B, t_B, I))};
+                             body.q_WB * nextAngularVelocity<gyration>(w_B, t_B, I, h)};
 
     const Velocities& moving = pose_moves_with == PoseMovesWith::kNewVelocity ? next : old;
     body.p_WBcm += h * moving.v_WBcm;
@@ -56,21 +73,25 @@ class VelocityEuler : public Integrator {
   }
 };
 
-template <PoseMovesWith pose_moves_with>
+template <PoseMovesWith pose_moves_with, Gyration gyration>
 std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn)
-    return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOn>>();
-  return std::make_unique<VelocityEuler<pose_moves_with, Gyroscopic::kOff>>();
+  if (options.gyroscopic == Gyroscopic::kOff)
+    return std::make_unique<VelocityEuler<pose_moves_with, Gyration::kNone>>();
+  return std::make_unique<VelocityEuler<pose_moves_with, gyration>>();
 }
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeExplicitEulerVelocity(const IntegratorOptions& options) {
-  return make<PoseMovesWith::kOldVelocity>(options);
+  return make<PoseMovesWith::kOldVelocity, Gyration::kExplicit>(options);
 }
 
 std::unique_ptr<Integrator> makeSemiImplicitVelocity(const IntegratorOptions& options) {
-  return make<PoseMovesWith::kNewVelocity>(options);
+  return make<PoseMovesWith::kNewVelocity, Gyration::kExplicit>(options);
+}
+
+std::unique_ptr<Integrator> makeSemiImplicitNewton(const IntegratorOptions& options) {
+  return make<PoseMovesWith::kNewVelocity, Gyration::kNewton>(options);
 }
 
 }  // namespace rigid_body_sim

@@ -107,8 +107,9 @@ BodyState rounded(const State& body) {
 Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
            double time_s) {
   const Equations equations = {mass, I_BBcm_B.cast<Real>(), law};
-  Column y0 = packed(extended(start));
-  y0.segment<4>(3).normalize();
+  State first = extended(start);
+  first.q_WB.normalize();  // first of all: by a longer one the momentum would be turned askew
+  const Column y0 = packed(first);
   Column coarse = run(equations, y0, time_s, 4);
   Column best = coarse;
   Real least = std::numeric_limits<Real>::infinity();

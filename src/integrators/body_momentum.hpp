@@ -1,0 +1,41 @@
+#pragma once
+
+#include "rigid_body_sim/body_state.hpp"
+#include "rigid_body_sim/integrator.hpp"
+#include "rigid_body_sim/rotation.hpp"
+#include "rigid_body_sim/wrench.hpp"
+
+// What the Runge-Kutta methods share: their state is attitude and angular momentum in body axes,
+// m = R^T L. In world axes the same methods would be hundreds of times less accurate, as every
+// error of the attitude turns up in m.
+namespace rigid_body_sim {
+
+/// m' in body axes [N m]: m x w + t, the first term only with the gyroscopic effect.
+template <Gyroscopic gyroscopic>
+Vector3d momentumRate(const Vector3d& m_B, const Vector3d& w_B, const Vector3d& t_B) {
+  if constexpr (gyroscopic == Gyroscopic::kOff) return t_B;
+  return m_B.cross(w_B) + t_B;
+}
+
+/// Ends a step at the attitude q_WB and the momentum m_B. `L_W` is what the world's torques have
+/// summed up to: the shortest turn of the body brings R m onto it. So the angular momentum of free
+/// flight stays the same to the bit, and no error of m gets into it. Without the gyroscopic effect
+/// L follows from the attitude.
+template <Gyroscopic gyroscopic>
+void setRotation(BodyState& body, const Quaterniond& q_WB, const Vector3d& m_B,
+                 const Vector3d& L_W) {
+  body.q_WB = q_WB.normalized();
+  if constexpr (gyroscopic == Gyroscopic::kOff) {
+    body.L_WBcm_W = body.q_WB * m_B;
+    return;
+  }
+  body.L_WBcm_W = L_W;
+  const double size = m_B.norm() * L_W.norm();
+  if (!(size > 0)) return;
+  const Vector3d now_W = body.q_WB * m_B;
+  const Vector3d axis = now_W.cross(L_W);
+  const Quaterniond turn(size + now_W.dot(L_W), axis.x(), axis.y(), axis.z());
+  body.q_WB = (turn * body.q_WB).normalized();
+}
+
+}  // namespace rigid_body_sim

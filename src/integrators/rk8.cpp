@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "integrators/body_momentum.hpp"
+#include "integrators/dop853.hpp"
+#include "integrators/families.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+/// Rates of one body, or sums of them: attitude (x, y, z, w), momentum in body axes, then torque,
+/// velocity and force in the world. Each part is filled up to four numbers.
+constexpr int kAttitude = 0, kMomentum = 4, kTorque = 8, kVelocity = 12, kForce = 16;
+constexpr int kFree = 8;  // of a body on which nothing acts, only the first two parts
+constexpr int kForced = 20;
+
+template <int size>
+using Rates = Eigen::Array<double, size, 1>;
+template <int size>
+using Stages = std::array<Rates<size>, Dop853::kStages>;
+
+template <int size>
+Rates<size> sum(const Stages<size>& k, const Dop853::Weight* first, const Dop853::Weight* last) {
+  Rates<size> result = Rates<size>::Zero();
+  for (; first != last; ++first) result += first->value * k[static_cast<std::size_t>(first->stage)];
+  return result;
+}
+
+template <int size, class Weights>
+Rates<size> sum(const Stages<size>& k, const Weights& weights) {
+  return sum(k, weights.data(), weights.data() + weights.size());
+}
+
+/// What stage s adds to the state at the beginning, a step long.
+template <int size>
+Rates<size> stageSum(const Stages<size>& k, int s) {
+  return sum(k, Dop853::a.data() + Dop853::first[s], Dop853::a.data() + Dop853::first[s + 1]);
+}
+
+/// The body at the beginning of a step.
+struct Start {
+  BodyState state;
+  Vector3d m_B;  ///< angular momentum in body axes
+};
+
+Start startOf(const Bodies& bodies, Eigen::Index i) {
+  const BodyState state = bodies.state(i);
+  return {state, state.q_WB.conjugate() * state.L_WBcm_W};
+}
+
+/// The first two parts of the rates, at an attitude that need not be of unit length.
+template <Gyroscopic gyroscopic, int size>
+void setRotationRates(Rates<size>& rates, const Eigen::Vector4d& q, const Vector3d& m_B,
+                      const Vector3d& I, const Vector3d& t_B) {
+  const Vector3d w_B = m_B.cwiseQuotient(I);
+  const Quaterniond half_w(0, 0.5 * w_B.x(), 0.5 * w_B.y(), 0.5 * w_B.z());
+  rates.template segment<4>(kAttitude) = (Quaterniond(q) * half_w).coeffs();
+  rates.template segment<3>(kMomentum) = momentumRate<gyroscopic>(m_B, w_B, t_B);
+  rates(kMomentum + 3) = 0;
+}
+
+template <Gyroscopic gyroscopic, int size>
+void endRotation(BodyState& body, const Start& start, const Rates<size>& step,
+                 const Vector3d& dL_W) {
+  const Vector3d dm_B = step.template segment<3>(kMomentum);
+  const Eigen::Vector4d dq = step.template segment<4>(kAttitude);
+  setRotation<gyroscopic>(body, Quaterniond(Eigen::Vector4d(start.state.q_WB.coeffs() + dq)),
+                          start.m_B + dm_B, start.state.L_WBcm_W + dL_W);
+}
+
+/// Size of `part`, three or four numbers of `error`, relative to `scale`; zero of zero is zero.
+template <int count, int size>
+double relative(const Rates<size>& error, int part, double scale) {
+  const double length = error.matrix().template segment<count>(part).norm();
+  return length == 0 ? 0 : length / scale;
+}
+
+/// Dormand and Prince's method on attitude, momentum in body axes, position and momentum.
+template <Gyroscopic gyroscopic>
+class DormandPrince {
+ public:
+  /// One step of h [s] from time_s.
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+    if (effects.empty()) {
+      for (Eigen::Index i = 0; i < bodies.count(); ++i) stepFree(bodies, i, h);
+      return;
+    }
+    tryStep(bodies, effects, time_s, h);
+    take(bodies, h);
+  }
+
+  /// Works out a step without taking it. Returns its estimated error, the worst of all bodies: of
+  /// the attitude [rad], of momenta relative to themselves, of the position relative to its
+  /// distance from the origin or the way of the step.
+  double tryStep(const Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+    starts_.resize(static_cast<std::size_t>(bodies.count()));
+    stages_.resize(starts_.size());
+    stage_momenta_.resize(starts_.size());
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      starts_[i] = startOf(bodies, i);
+      stage_momenta_[i] = starts_[i].m_B;
+    }
+    stage_bodies_ = bodies;
+    for (int s = 0; s < Dop853::kStages; ++s) {
+      if (s > 0)
+        for (Eigen::Index i = 0; i < bodies.count(); ++i) beginStage(i, s, h);
+      const Wrenches& wrenches = effects.evaluate(stage_bodies_, time_s + Dop853::c[s] * h);
+      for (Eigen::Index i = 0; i < bodies.count(); ++i)
+        finishStage(i, s, {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)});
+    }
+    double worst = 0;
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      const double error = estimate(i, h);
+      if (std::isnan(error)) return error;
+      worst = std::max(worst, error);
+    }
+    return worst;
+  }
+
+  /// Takes the step tried last.
+  void take(Bodies& bodies, double h) const {
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      const Rates<kForced> step = h * sum(stages_[i], Dop853::b);
+      BodyState body = starts_[i].state;
+      body.p_WBcm += step.matrix().segment<3>(kVelocity);
+      body.P_WB += step.matrix().segment<3>(kForce);
+      if (!starts_[i].m_B.isZero(0) || !step.segment<8>(kMomentum).isZero(0))
+        endRotation<gyroscopic>(body, starts_[i], step, step.matrix().segment<3>(kTorque));
+      bodies.setState(i, body);
+    }
+  }
+
+ private:
+  static void stepFree(Bodies& bodies, Eigen::Index i, double h) {
+    const Start start = startOf(bodies, i);
+    BodyState body = start.state;
+    body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
+    if (!start.m_B.isZero(0)) {
+      const Vector3d I = bodies.moments(i);
+      Stages<kFree> k;
+      for (int s = 0; s < Dop853::kStages; ++s) {
+        const Rates<kFree> so_far = h * stageSum(k, s);
+        const Eigen::Vector4d q = start.state.q_WB.coeffs() + so_far.matrix().segment<4>(kAttitude);
+        const Vector3d m_B = start.m_B + so_far.matrix().segment<3>(kMomentum);
+        setRotationRates<gyroscopic>(k[s], q, m_B, I, Vector3d::Zero());
+      }
+      endRotation<gyroscopic>(body, start, Rates<kFree>(h * sum(k, Dop853::b)), Vector3d::Zero());
+    }
+    bodies.setState(i, body);
+  }
+
+  /// The state at which the effects of stage s are evaluated.
+  void beginStage(Eigen::Index i, int s, double h) {
+    const Rates<kForced> so_far = h * stageSum(stages_[i], s);
+    BodyState at = starts_[i].state;
+    at.p_WBcm += so_far.matrix().segment<3>(kVelocity);
+    at.P_WB += so_far.matrix().segment<3>(kForce);
+    at.q_WB.coeffs() += so_far.matrix().segment<4>(kAttitude);
+    at.q_WB.normalize();
+    stage_momenta_[i] = starts_[i].m_B + so_far.matrix().segment<3>(kMomentum);
+    at.L_WBcm_W = at.q_WB * stage_momenta_[i];
+    stage_bodies_.setState(i, at);
+  }
+
+  void finishStage(Eigen::Index i, int s, const Wrench& wrench) {
+    const BodyState at = stage_bodies_.state(i);
+    Rates<kForced>& k = stages_[i][s];
+    k.setZero();
+    setRotationRates<gyroscopic>(k, at.q_WB.coeffs(), stage_momenta_[i], stage_bodies_.moments(i),
+                                 at.q_WB.conjugate() * wrench.t_Q_F);
+    k.matrix().segment<3>(kTorque) = wrench.t_Q_F;
+    k.matrix().segment<3>(kVelocity) = at.P_WB / stage_bodies_.mass(i);
+    k.matrix().segment<3>(kForce) = wrench.f_F;
+  }
+
+  /// From the estimates of order 5 and 3 (Hairer, Norsett and Wanner, II.10).
+  double estimate(Eigen::Index i, double h) const {
+    const Stages<kForced>& k = stages_[i];
+    const Rates<kForced> step = h * sum(k, Dop853::b);
+    const auto size = [&](const Rates<kForced>& e) {
+      const auto scale = [&](const Vector3d& start, int part) {
+        const Vector3d change = step.matrix().segment<3>(part);
+        return std::max(start.norm(), change.norm());
+      };
+      const BodyState& start = starts_[i].state;
+      return std::max({2 * relative<4>(e, kAttitude, 1),
+                       relative<3>(e, kMomentum, scale(starts_[i].m_B, kMomentum)),
+                       relative<3>(e, kVelocity, scale(start.p_WBcm, kVelocity)),
+                       relative<3>(e, kForce, scale(start.P_WB, kForce))});
+    };
+    const double e5 = size(h * sum(k, Dop853::e5));
+    const double e3 = size(h * sum(k, Dop853::e3));
+    return e5 == 0 ? 0 : e5 * e5 / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
+  }
+
+  Bodies stage_bodies_;
+  std::vector<Start> starts_;
+  std::vector<Vector3d> stage_momenta_;  // in body axes
+  std::vector<Stages<kForced>> stages_;
+};
+
+template <Gyroscopic gyroscopic>
+class Rk8 : public Integrator {
+ public:
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    method_.step(bodies, effects, time_s, h);
+  }
+
+ private:
+  DormandPrince<gyroscopic> method_;
+};
+
+/// As many steps as the estimated error wants, the same for all bodies. They do not depend on those
+/// of earlier ticks, so that the same state gives the same bits.
+template <Gyroscopic gyroscopic>
+class Adaptive : public Integrator {
+ public:
+  explicit Adaptive(double tolerance) : tolerance_(tolerance) {}
+
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    double done = 0;
+    double next = firstStep(bodies, h);
+    while (done != h) {
+      const bool is_last = std::abs(next) >= std::abs(h - done) * (1 - 1e-9);
+      const double dt = is_last ? h - done : next;
+      const double error = method_.tryStep(bodies, effects, time_s + done, dt);
+      // Rounding is no reason to go on halving, nor is a wrench that is not a number.
+      const double allowed = std::max(tolerance_ * std::abs(dt), kRounding);
+      const bool is_too_small = std::abs(dt) <= kLeast * std::abs(h);
+      if (error <= allowed || is_too_small) {
+        method_.take(bodies, dt);
+        done = is_last ? h : done + dt;
+      }
+      const double factor = error > 0 ? 0.9 * std::pow(allowed / error, 1.0 / 8) : 5;
+      next = dt * (std::isnan(factor) ? 0.2 : std::clamp(factor, 0.2, 5.0));
+    }
+  }
+
+ private:
+  static constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  static constexpr double kLeast = 1e-6;  // of the whole step
+
+  /// A fifth of a radian of the fastest body.
+  static double firstStep(const Bodies& bodies, double h) {
+    double rate = 0;
+    for (Eigen::Index i = 0; i < bodies.count(); ++i)
+      rate = std::max(rate, angularVelocityInBody(bodies.state(i), bodies.moments(i)).norm());
+    return rate * std::abs(h) > 0.2 ? std::copysign(0.2 / rate, h) : h;
+  }
+
+  DormandPrince<gyroscopic> method_;
+  double tolerance_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeRk8(const IntegratorOptions& options) {
+  if (options.gyroscopic == Gyroscopic::kOn) return std::make_unique<Rk8<Gyroscopic::kOn>>();
+  return std::make_unique<Rk8<Gyroscopic::kOff>>();
+}
+
+std::unique_ptr<Integrator> makeAdaptive(const IntegratorOptions& options) {
+  if (options.gyroscopic == Gyroscopic::kOn)
+    return std::make_unique<Adaptive<Gyroscopic::kOn>>(options.tolerance);
+  return std::make_unique<Adaptive<Gyroscopic::kOff>>(options.tolerance);
+}
+
+}  // namespace rigid_body_sim
