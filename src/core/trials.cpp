@@ -35,11 +35,12 @@ int indexOf(double count) {
                           kSubsteps.begin());
 }
 
-/// By which power of time an error grew from the first half to the whole: a first to a third, as
-/// errors of phase do; what is faster is chaos, and no power.
+/// What an error will be at the end of a span that is longer than the flight. It grows with the
+/// square of the time, as errors of phase do, or as it did in the second half of the flight if that
+/// is more; beyond the third power it is chaos, and no power.
 double extrapolated(double half, double whole, double span) {
   if (span <= 1 || whole == 0) return whole;
-  const double power = half > 0 ? std::clamp(std::log2(whole / half), 1.0, 3.0) : 1.0;
+  const double power = half > 0 ? std::clamp(std::log2(whole / half), 2.0, 3.0) : 2.0;
   return whole * std::pow(span, power);
 }
 
