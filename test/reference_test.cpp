@@ -127,7 +127,7 @@ TEST(Reference, FlightOfASpunUpSphereFollowsItsAngle) {
   const auto law = [&](reference::Real t, const reference::State&) {
     return reference::Push{reference::Vector3r::Zero(), 6 * t * u.cast<reference::Real>()};
   };
-  const BodyState end = fly({}, 1, {0.5, 0.5, 0.5}, law, 1.1).end;  // angle 2 t^3
+  const BodyState end = fly(BodyState(), 1, {0.5, 0.5, 0.5}, law, 1.1).end;  // angle 2 t^3
   EXPECT_LE(angleBetween(end.q_WB, rotationExp(2 * 1.1 * 1.1 * 1.1 * u)), 32 * kEps);
   EXPECT_LE(difference(end.L_WBcm_W, 3 * 1.1 * 1.1 * u), 32 * kEps);
 }

@@ -34,6 +34,11 @@ std::vector<Case> makeCases() {
        "spin about the intermediate axis, a little off it: turns over again and again "
        "(V. Dzhanibekov, Salyut 7, 1985; rates of S. Peters' benchmark 'boxes')"},
       nescBrick(),
+      {"fast_spinner",
+       1,
+       {0.01, 0.02, 0.03},
+       {50, 1, 80},
+       "1.9 radians in a step of 0.02 s: no method of polynomials can follow"},
       {"prolate_top",
        1,
        {0.4, 1, 1},

@@ -104,10 +104,10 @@ BodyState rounded(const State& body) {
           body.L_WBcm_W.cast<double>()};
 }
 
-Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
+Flight fly(const State& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
            double time_s) {
   const Equations equations = {mass, I_BBcm_B.cast<Real>(), law};
-  State first = extended(start);
+  State first = start;
   first.q_WB.normalize();  // first of all: by a longer one the momentum would be turned askew
   const Column y0 = packed(first);
   Column coarse = run(equations, y0, time_s, 4);
@@ -129,7 +129,8 @@ Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const 
     why << "the reference flight does not settle: too fast, too long or chaotic; doubt " << least;
     throw std::runtime_error(why.str());
   }
-  return {rounded(unpacked(best)), static_cast<double>(least)};
+  const State end = unpacked(best);
+  return {rounded(end), end, static_cast<double>(least)};
 }
 
 }  // namespace rigid_body_sim::reference

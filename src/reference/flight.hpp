@@ -35,6 +35,7 @@ inline Push nothing(Real, const State&) { return {}; }
 /// Where a flight ends, and how far that is to be trusted.
 struct Flight {
   BodyState end;
+  State extended_end;  ///< to go on from without rounding
   double doubt;  ///< the largest difference of any component to the same flight in half as many
                  ///< steps, relative to the size of its vector or to one, whichever is larger
 };
@@ -47,7 +48,12 @@ struct Flight {
 /// 1e-12 / 2^16 of truncation, and rounding of some 1e-16 times how much the motion spreads small
 /// differences; or until the change no longer falls because of that rounding.
 /// @throws std::runtime_error if the change stays above 1e-9.
-Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
+Flight fly(const State& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
            double time_s);
+
+inline Flight fly(const BodyState& start, double mass, const Vector3d& I_BBcm_B, const PushLaw& law,
+                  double time_s) {
+  return fly(extended(start), mass, I_BBcm_B, law, time_s);
+}
 
 }  // namespace rigid_body_sim::reference

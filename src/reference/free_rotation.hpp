@@ -1,6 +1,8 @@
 #pragma once
 
-#include "rigid_body_sim/conventions.hpp"
+#include <vector>
+
+#include "reference/flight.hpp"
 
 namespace rigid_body_sim::reference {
 
@@ -17,5 +19,12 @@ struct Rotation {
 /// Computed in long double; the result is rounded once.
 /// @throws std::invalid_argument if no two moments are equal.
 Rotation symmetricTop(const Vector3d& I_BBcm_B, const Rotation& start, double time_s);
+
+/// Attitudes q_WB of a torque-free body at the times 0, interval_s, ... count * interval_s [s],
+/// from the angular momentum L_W [kg m^2/s] in the world: Taylor series of m' = m x w and q' = q
+/// w/2 to order 30 in long double, in steps of at most 0.4 radians. The moments ascend. Good to some 1e-19 times what
+/// the motion spreads small differences by; fly() adds up some hundred times more rounding.
+std::vector<Quaternionr> freeAttitudes(const Vector3d& I_BBcm_B, const Quaterniond& q_WB,
+                                       const Vector3d& L_W, double interval_s, int count);
 
 }  // namespace rigid_body_sim::reference
