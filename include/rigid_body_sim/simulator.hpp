@@ -153,6 +153,7 @@ class Simulator {
   void makeGroups();
   void replanIfDue();
   void latchInputs();
+  void latchWrenches();
   void giveImpulses(std::vector<ImpulseInput> impulses);
   void freezeNonFinite(const Bodies& before);
 

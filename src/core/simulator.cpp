@@ -161,12 +161,19 @@ void Simulator::apply(ImpulseInput input) {
 }
 
 void Simulator::latchInputs() {
+  if (!pending_wrenches_.empty() || applied_->bodyCount() > 0)
+    latchWrenches();
+  else
+    ended_.clear();
+  if (!pending_impulses_.empty()) giveImpulses(takeDue(pending_impulses_, tick_));
+}
+
+void Simulator::latchWrenches() {
   std::vector<WrenchInput> begun = takeDue(pending_wrenches_, tick_);
   const bool may_change = !begun.empty();
   ended_ = applied_->update(std::move(begun), tick_);
   if (may_change || !ended_.empty())
     for (const auto& group : groups_) group->hold(*applied_);
-  giveImpulses(takeDue(pending_impulses_, tick_));
 }
 
 void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
@@ -194,8 +201,10 @@ void Simulator::freezeNonFinite(const Bodies& before) {
 void Simulator::step() {
   copyState(bodies_, before_);
   latchInputs();
-  replanIfDue();
-  if (watch_) watch_->beginTick({scene_, bodies_, *applied_, tick_});
+  if (watch_) {
+    replanIfDue();
+    watch_->beginTick({scene_, bodies_, *applied_, tick_});
+  }
   const double start_s = static_cast<double>(tick_) * scene_.step_s();
   for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());
   freezeNonFinite(before_);
@@ -205,7 +214,6 @@ void Simulator::step() {
 }
 
 void Simulator::replanIfDue() {
-  if (!watch_) return;
   const std::optional<Eigen::Index> body = watch_->bodyToReplan();
   if (!body) return;
   watch_->replan(planAgain(watch_->state().bill, {scene_, bodies_, *applied_, tick_}, *body),
