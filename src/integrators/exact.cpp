@@ -91,9 +91,9 @@ class Exact : public Integrator {
   void recall(const Bodies& bodies) {
     const auto known = static_cast<Eigen::Index>(spins_.size());
     for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+      if (i < known && isKnown(spins_[i], bodies, i)) continue;
       const Eigen::Vector4d q_WB = bodies.q_WB.row(i);
       const Vector3d L_W = bodies.L_WBcm_W.row(i);
-      if (i < known && spins_[i].q_WB.coeffs() == q_WB && spins_[i].L_W == L_W) continue;
       const Spin spin = {Quaterniond(q_WB), L_W, momentumInBody(Quaterniond(q_WB), L_W),
                          InverseMoments(bodies.moments(i))};
       if (i < known)
@@ -101,6 +101,14 @@ class Exact : public Integrator {
       else
         spins_.push_back(spin);
     }
+  }
+
+  static bool isKnown(const Spin& spin, const Bodies& bodies, Eigen::Index i) {
+    const auto& q = bodies.q_WB;
+    const auto& L = bodies.L_WBcm_W;
+    return spin.q_WB.x() == q(i, 0) && spin.q_WB.y() == q(i, 1) && spin.q_WB.z() == q(i, 2) &&
+           spin.q_WB.w() == q(i, 3) && spin.L_W.x() == L(i, 0) && spin.L_W.y() == L(i, 1) &&
+           spin.L_W.z() == L(i, 2);
   }
 
   void kick(Bodies& bodies, const Wrenches& wrenches, double h) {

@@ -89,13 +89,4 @@ OrbitStep orbitStep(const Orbit& o, double time) {
           periodic * halfAngle(sign * secularAngle(o, x, f))};
 }
 
-HalfAngle halfArgument(double re, double im) {
-  // sqrt(z) is along z + |z|; where that cancels, along i (|z| - re) + im instead.
-  const double size = std::sqrt(re * re + im * im);
-  const double sum = size + std::abs(re);
-  const double scale = 1 / std::sqrt(2 * size * sum);
-  if (re >= 0) return {scale * sum, scale * im};
-  return {scale * std::abs(im), std::copysign(scale * sum, im)};
-}
-
 }  // namespace rigid_body_sim

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "integrators/jacobi.hpp"
 #include "rigid_body_sim/conventions.hpp"
 #include "rigid_body_sim/rotation.hpp"
@@ -57,6 +59,13 @@ inline HalfAngle operator*(const HalfAngle& a, const HalfAngle& b) {
 }
 
 /// Half of the argument of the complex number (re, im), not zero: no trigonometric function.
-HalfAngle halfArgument(double re, double im);
+inline HalfAngle halfArgument(double re, double im) {
+  // sqrt(z) is along z + |z|; where that cancels, along i (|z| - re) + im instead.
+  const double size = std::sqrt(re * re + im * im);
+  const double sum = size + std::abs(re);
+  const double scale = 1 / std::sqrt(2 * size * sum);
+  if (re >= 0) return {scale * sum, scale * im};
+  return {scale * std::abs(im), std::copysign(scale * sum, im)};
+}
 
 }  // namespace rigid_body_sim

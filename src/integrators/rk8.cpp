@@ -11,11 +11,11 @@
 namespace rigid_body_sim {
 namespace {
 
-/// Rates of one body, or sums of them: attitude (x, y, z, w), momentum in body axes, then torque,
-/// velocity and force in the world. Each part is filled up to four numbers.
-constexpr int kAttitude = 0, kMomentum = 4, kTorque = 8, kVelocity = 12, kForce = 16;
+/// Rates of one body, or sums of them: attitude (x, y, z, w), momentum in body axes, then velocity
+/// and force in the world. Each part is filled up to four numbers.
+constexpr int kAttitude = 0, kMomentum = 4, kVelocity = 8, kForce = 12;
 constexpr int kFree = 8;  // of a body on which nothing acts, only the first two parts
-constexpr int kForced = 20;
+constexpr int kForced = 16;
 
 template <int size>
 using Rates = Eigen::Array<double, size, 1>;
@@ -40,13 +40,13 @@ Rates<size> stageSum(const Stages<size>& k, int s) {
   return sum(k, Dop853::a.data() + Dop853::first[s], Dop853::a.data() + Dop853::first[s + 1]);
 }
 
-/// The body at the beginning of a step.
-struct Start {
+/// A body at the beginning of a step or at a stage.
+struct Moment {
   BodyState state;
   Vector3d m_B;  ///< angular momentum in body axes
 };
 
-Start startOf(const Bodies& bodies, Eigen::Index i) {
+Moment startOf(const Bodies& bodies, Eigen::Index i) {
   const BodyState state = bodies.state(i);
   return {state, state.q_WB.conjugate() * state.L_WBcm_W};
 }
@@ -63,7 +63,7 @@ void setRotationRates(Rates<size>& rates, const Eigen::Vector4d& q, const Vector
 }
 
 template <Gyroscopic gyroscopic, int size>
-void endRotation(BodyState& body, const Start& start, const Rates<size>& step,
+void endRotation(BodyState& body, const Moment& start, const Rates<size>& step,
                  const Vector3d& dL_W) {
   const Vector3d dm_B = step.template segment<3>(kMomentum);
   const Eigen::Vector4d dq = step.template segment<4>(kAttitude);
@@ -92,17 +92,13 @@ class DormandPrince {
     take(bodies, h);
   }
 
-  /// Works out a step without taking it. Returns its estimated error, the worst of all bodies: of
-  /// the attitude [rad], of momenta relative to themselves, of the position relative to its
-  /// distance from the origin or the way of the step.
-  double tryStep(const Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+  /// Works out a step without taking it.
+  void tryStep(const Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
     starts_.resize(static_cast<std::size_t>(bodies.count()));
     stages_.resize(starts_.size());
-    stage_momenta_.resize(starts_.size());
-    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-      starts_[i] = startOf(bodies, i);
-      stage_momenta_[i] = starts_[i].m_B;
-    }
+    torques_.resize(starts_.size());
+    stage_.resize(starts_.size());
+    for (Eigen::Index i = 0; i < bodies.count(); ++i) stage_[i] = starts_[i] = startOf(bodies, i);
     stage_bodies_ = bodies;
     for (int s = 0; s < Dop853::kStages; ++s) {
       if (s > 0)
@@ -111,11 +107,17 @@ class DormandPrince {
       for (Eigen::Index i = 0; i < bodies.count(); ++i)
         finishStage(i, s, {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)});
     }
+  }
+
+  /// Estimated error of the step tried last, the worst of all bodies: of the attitude [rad], of
+  /// momenta relative to themselves, of the position relative to its distance from the origin or
+  /// the way of the step.
+  double error(double h) const {
     double worst = 0;
-    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-      const double error = estimate(i, h);
-      if (std::isnan(error)) return error;
-      worst = std::max(worst, error);
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+      const double one = estimate(static_cast<Eigen::Index>(i), h);
+      if (std::isnan(one)) return one;
+      worst = std::max(worst, one);
     }
     return worst;
   }
@@ -127,15 +129,17 @@ class DormandPrince {
       BodyState body = starts_[i].state;
       body.p_WBcm += step.matrix().segment<3>(kVelocity);
       body.P_WB += step.matrix().segment<3>(kForce);
-      if (!starts_[i].m_B.isZero(0) || !step.segment<8>(kMomentum).isZero(0))
-        endRotation<gyroscopic>(body, starts_[i], step, step.matrix().segment<3>(kTorque));
+      Vector3d dL_W = Vector3d::Zero();
+      for (const Dop853::Weight& b : Dop853::b) dL_W += (h * b.value) * torques_[i][b.stage];
+      if (!starts_[i].m_B.isZero(0) || !dL_W.isZero(0) || !step.segment<4>(kMomentum).isZero(0))
+        endRotation<gyroscopic>(body, starts_[i], step, dL_W);
       bodies.setState(i, body);
     }
   }
 
  private:
   static void stepFree(Bodies& bodies, Eigen::Index i, double h) {
-    const Start start = startOf(bodies, i);
+    const Moment start = startOf(bodies, i);
     BodyState body = start.state;
     body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
     if (!start.m_B.isZero(0)) {
@@ -155,24 +159,26 @@ class DormandPrince {
   /// The state at which the effects of stage s are evaluated.
   void beginStage(Eigen::Index i, int s, double h) {
     const Rates<kForced> so_far = h * stageSum(stages_[i], s);
-    BodyState at = starts_[i].state;
-    at.p_WBcm += so_far.matrix().segment<3>(kVelocity);
-    at.P_WB += so_far.matrix().segment<3>(kForce);
-    at.q_WB.coeffs() += so_far.matrix().segment<4>(kAttitude);
-    at.q_WB.normalize();
-    stage_momenta_[i] = starts_[i].m_B + so_far.matrix().segment<3>(kMomentum);
-    at.L_WBcm_W = at.q_WB * stage_momenta_[i];
+    const Moment& start = starts_[i];
+    BodyState& at = stage_[i].state;
+    at.p_WBcm = start.state.p_WBcm + so_far.matrix().segment<3>(kVelocity);
+    at.P_WB = start.state.P_WB + so_far.matrix().segment<3>(kForce);
+    // Stages are only near unit length, and nearer after this.
+    at.q_WB = renormalized(Quaterniond(
+        Eigen::Vector4d(start.state.q_WB.coeffs() + so_far.matrix().segment<4>(kAttitude))));
+    stage_[i].m_B = start.m_B + so_far.matrix().segment<3>(kMomentum);
+    at.L_WBcm_W = at.q_WB * stage_[i].m_B;
     stage_bodies_.setState(i, at);
   }
 
   void finishStage(Eigen::Index i, int s, const Wrench& wrench) {
-    const BodyState at = stage_bodies_.state(i);
+    const BodyState& at = stage_[i].state;
     Rates<kForced>& k = stages_[i][s];
-    k.setZero();
-    setRotationRates<gyroscopic>(k, at.q_WB.coeffs(), stage_momenta_[i], stage_bodies_.moments(i),
+    setRotationRates<gyroscopic>(k, at.q_WB.coeffs(), stage_[i].m_B, stage_bodies_.moments(i),
                                  at.q_WB.conjugate() * wrench.t_Q_F);
-    k.matrix().segment<3>(kTorque) = wrench.t_Q_F;
+    torques_[i][s] = wrench.t_Q_F;
     k.matrix().segment<3>(kVelocity) = at.P_WB / stage_bodies_.mass(i);
+    k(kVelocity + 3) = k(kForce + 3) = 0;
     k.matrix().segment<3>(kForce) = wrench.f_F;
   }
 
@@ -197,9 +203,10 @@ class DormandPrince {
   }
 
   Bodies stage_bodies_;
-  std::vector<Start> starts_;
-  std::vector<Vector3d> stage_momenta_;  // in body axes
+  std::vector<Moment> starts_;
+  std::vector<Moment> stage_;  // the bodies at the present stage, as in stage_bodies_
   std::vector<Stages<kForced>> stages_;
+  std::vector<std::array<Vector3d, Dop853::kStages>> torques_;  // in the world
 };
 
 template <Gyroscopic gyroscopic>
@@ -226,7 +233,8 @@ class Adaptive : public Integrator {
     while (done != h) {
       const bool is_last = std::abs(next) >= std::abs(h - done) * (1 - 1e-9);
       const double dt = is_last ? h - done : next;
-      const double error = method_.tryStep(bodies, effects, time_s + done, dt);
+      method_.tryStep(bodies, effects, time_s + done, dt);
+      const double error = method_.error(dt);
       // Rounding is no reason to go on halving, nor is a wrench that is not a number.
       const double allowed = std::max(tolerance_ * std::abs(dt), kRounding);
       const bool is_too_small = std::abs(dt) <= kLeast * std::abs(h);
