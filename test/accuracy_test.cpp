@@ -46,20 +46,29 @@ bool mayFly(const Scene& scene, const IntegratorRow& row) {
   return true;
 }
 
-/// Of one body, by trying: the least cost of all methods that keep the budget and cost less than
-/// `less_than`; that if there is none.
+/// Of one body, by trying all.
 class ByTrying {
  public:
   ByTrying(const TrueScene& one, const Scene& scene)
       : one_(one), scene_(scene), truth_(flyTruly(scene, kTicks, 1).trajectory) {}
 
-  double leastCost(double budget, double less_than) {
-    double least = less_than;
+  /// Of each integrator the fewest substeps that keep the budget, if they cost less than that.
+  std::vector<Method> keeping(double budget, double less_than) {
+    std::vector<Method> methods;
     for (const IntegratorRow& row : integrators()) {
       if (!mayFly(scene_, row)) continue;
-      for (int n = 1; costOf(scene_, {row.name, n}) < least; ++n)
-        if (error({row.name, n}) <= budget) least = costOf(scene_, {row.name, n});
+      int n = 1;
+      while (costOf(scene_, {row.name, n}) < less_than && error({row.name, n}) > budget) ++n;
+      if (costOf(scene_, {row.name, n}) < less_than) methods.push_back({row.name, n});
     }
+    return methods;
+  }
+
+  /// The least cost of those; that if there is none.
+  double leastCost(double budget, double less_than) {
+    double least = less_than;
+    for (const Method& method : keeping(budget, less_than))
+      least = std::min(least, costOf(scene_, method));
     return least;
   }
 
@@ -112,7 +121,7 @@ void expectTruth(const TrueScene& one, const Trajectory& truth) {
 
 class TenScenes : public testing::TestWithParam<int> {
  protected:
-  const TrueScene one_ = tenScenes(40)[GetParam()];
+  const TrueScene one_ = tenScenes(30)[GetParam()];
 };
 
 TEST_P(TenScenes, KeepEveryBudget) {
@@ -145,36 +154,42 @@ TEST_P(TenScenes, CostAtMostHalfMoreThanTheCheapest) {
   }
 }
 
-TEST_P(TenScenes, GiveTheSameBillEachTime) {
-  const Bill first = plan(one_.scene, one_.budget(1e-6)),
-             again = plan(one_.scene, one_.budget(1e-6));
-  EXPECT_EQ(toText(first, one_.scene), toText(again, one_.scene));
-}
-
 INSTANTIATE_TEST_SUITE_P(Each, TenScenes, testing::Range(0, 10), [](const auto& info) {
   std::string name = tenScenes(1)[info.param].name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 });
 
-/// The time that the choice really takes for a body and tick, against the cost that it was chosen
-/// by. On an idle machine; not for every run.
-TEST(Time, DISABLED_FollowsTheCosts) {
-  for (const TrueScene& one : tenScenes(40)) {
-    if (one.scene.bodies.size() > 1) continue;
-    for (const IntegratorRow& row : integrators()) {
-      if (!mayFly(one.scene, row)) continue;
-      const auto start = std::chrono::steady_clock::now();
-      try {
-        fly(one.scene, {row.name}, 20'000, 20'000);
-      } catch (const std::invalid_argument&) {
-        continue;
+/// Nanoseconds a tick, the least of some runs.
+double timeOf(const Scene& scene, const Method& method) {
+  double least = kInf;
+  for (int i = 0; i < 9; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    fly(scene, method, 2000, 2000);
+    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+    least = std::min(least, time.count() / 2000);
+  }
+  return least;
+}
+
+/// The time that the choice really takes, against the fastest of those that keep the budget. Wants
+/// an idle machine: run it with --gtest_also_run_disabled_tests.
+TEST(Time, DISABLED_OfTheChoiceIsNearlyTheLeast) {
+  for (const TrueScene& one : tenScenes(1)) {
+    ByTrying all(one, one.scene);
+    for (const double budget : kBudgets) {
+      const Method chosen = plan(one.scene, one.budget(budget)).classes[0].chosen.method;
+      const double own = timeOf(one.scene, chosen);
+      double least = own;
+      Method fastest = chosen;
+      for (const Method& method : all.keeping(budget, 3 * costOf(one.scene, chosen))) {
+        const double time = timeOf(one.scene, method);
+        if (time < least) fastest = method;
+        least = std::min(least, time);
       }
-      const std::chrono::duration<double, std::nano> time =
-          std::chrono::steady_clock::now() - start;
-      std::printf("%-18s %-26s %7.0f ns, %7.1f ns a unit of cost\n", one.name.c_str(),
-                  row.name.c_str(), time.count() / 20'000,
-                  time.count() / 20'000 / costOf(one.scene, {row.name}));
+      std::printf("%-16s %5.0e: %-12s %6.0f ns, %4.2f times the fastest, %s\n", one.name.c_str(),
+                  budget, toText(chosen).c_str(), own, own / least, toText(fastest).c_str());
+      EXPECT_LE(own, 1.5 * least) << one.name << " " << budget;
     }
   }
 }
@@ -237,12 +252,29 @@ TEST(Bill, SaysWhatADigitLessOrMoreCosts) {
                         "one digit more: ", "reference: adaptive"}));
 }
 
+TEST(Bill, IsTheSameEachTime) {
+  for (const int i : {0, 1, 5, 9}) {
+    const TrueScene one = tenScenes(10)[i];
+    const auto bill = [&] { return toText(plan(one.scene, one.budget(1e-6)), one.scene); };
+    EXPECT_EQ(bill(), bill()) << one.name;
+  }
+}
+
 TEST(Bill, ThatNothingKeepsIsRefusedWithTheBestThereIs) {
   TrueScene one = tenScenes(1)[1];
   one.scene.accuracy = one.budget(1e-14);
   EXPECT_TRUE(contains(refusal([&] { Simulator{one.scene}; }),
                        {"accuracy", "1e-14 rad over 60 s", "'craft'", "the best there is, ",
                         "leaves", "in doubt by", "step_s"}));
+}
+
+TEST(Bill, EndsEarlyWhenAsked) {
+  TrueScene swarm = swarmScene(200);
+  swarm.scene.accuracy = swarm.budget(1e-6);
+  int asked = 0;
+  EXPECT_TRUE(contains(refusal([&] { Simulator(swarm.scene, [&] { return ++asked == 3; }); }),
+                       {"ended while"}));
+  EXPECT_EQ(asked, 3);
 }
 
 /// Pulls two bodies together: cannot be divided.

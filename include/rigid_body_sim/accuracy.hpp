@@ -93,7 +93,8 @@ struct LocalError {
 
 /// Whether a running simulation keeps its budget. Bodies are looked at in turn, one tick of one
 /// body at a time: every tick if there are 30 or more, each body every 30 ticks if they are fewer.
-/// Bodies that are coupled are looked at together, every 30 ticks a body.
+/// Bodies that are coupled are looked at together, every 30 ticks a body. A body that got an impulse
+/// is looked at in that tick, or as soon as those before it have been.
 struct AccuracyState {
   Bill bill;      ///< the latest
   int bills = 1;  ///< how many there were

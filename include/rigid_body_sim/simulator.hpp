@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,7 +97,9 @@ class Simulator {
   /// invalid tensor, a pose that is no rigid transform, an unknown integrator, a step that is not
   /// positive, an integrator that does not bear an effect or a body's spin, an
   /// accuracy that no method keeps.
-  explicit Simulator(Scene scene);
+  /// @param shall_end is asked now and then while methods are chosen for an accuracy, which may
+  /// take seconds; true ends that with an exception
+  explicit Simulator(Scene scene, const std::function<bool()>& shall_end = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;

@@ -155,62 +155,8 @@ class Choice {
   std::vector<double> shares_;
 };
 
-}  // namespace
-
-double shareOf(const Budget& budget, const Deviation& error, const Deviation& doubt) {
-  const auto share = [](double error, double limit) {
-    return std::isinf(limit) ? 0 : error / limit;
-  };
-  return std::max(share(error.attitude_rad + doubt.attitude_rad, budget.attitude_rad),
-                  share(error.position_m + doubt.position_m, budget.position_m)) /
-         kShareOfBudget;
-}
-
-Bill planFrom(const Situation& now, const Budget& budget) {
-  Bill bill;
-  bill.budget = budget;
-  bill.tick = now.tick;
-  bill.forecasts.resize(static_cast<std::size_t>(now.bodies.count()));
-  std::vector<Part> parts = partsOf(now);
-  const std::size_t flown = std::min(parts.size(), kMostFlown);
-  Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));
-  if (parts.size() <= kMostFlown) {
-    for (const Part& part : parts) choice.add(part);
-  } else {
-    const auto kinds = byKind(std::move(parts));
-    const std::size_t of_each = std::max<std::size_t>(1, kMostFlown / kinds.size());
-    for (const auto& [kind, alike] : kinds) {
-      std::size_t dearest = choice.add(alike[0]);
-      for (std::size_t i = 1; i < alike.size(); ++i) {
-        if (i >= of_each) {
-          choice.addUnflown(alike[i].indices[0], dearest);
-          continue;
-        }
-        const std::size_t place = choice.add(alike[i]);
-        if (choice.costOf(place) > choice.costOf(dearest)) dearest = place;
-      }
-    }
-  }
-  choice.finish();
-  return bill;
-}
-
-Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
-  const auto part = partOf(now, {body});
-  if (!part) return planFrom(now, bill.budget);
-  Bill next = bill;
-  next.tick = now.tick;
-  next.body_steps = 0;
-  for (auto one = next.classes.begin(); one != next.classes.end();) {
-    one->bodies.erase(std::remove(one->bodies.begin(), one->bodies.end(), body), one->bodies.end());
-    one = one->bodies.empty() ? next.classes.erase(one) : one + 1;
-  }
-  Choice choice(next, allowanceOf(bill.budget, now.scene.step_s(), 1, 1));
-  choice.add(*part);
-  choice.finish();
-  return next;
-}
-
+/// @throws std::invalid_argument naming the body, the best there is and what it leaves, if the bill
+/// does not keep its budget
 void requireKept(const Bill& bill, const Scene& scene) {
   for (const ClassBill& one : bill.classes) {
     if (one.keeps_budget) continue;
@@ -225,6 +171,70 @@ void requireKept(const Bill& bill, const Scene& scene) {
   }
 }
 
+}  // namespace
+
+double shareOf(const Budget& budget, const Deviation& error, const Deviation& doubt) {
+  const auto share = [](double error, double limit) {
+    return std::isinf(limit) ? 0 : error / limit;
+  };
+  return std::max(share(error.attitude_rad + doubt.attitude_rad, budget.attitude_rad),
+                  share(error.position_m + doubt.position_m, budget.position_m)) /
+         kShareOfBudget;
+}
+
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise,
+              const std::function<bool()>& shall_end) {
+  Bill bill;
+  bill.budget = budget;
+  bill.tick = now.tick;
+  bill.forecasts.resize(static_cast<std::size_t>(now.bodies.count()));
+  std::vector<Part> parts = partsOf(now);
+  const std::size_t flown = std::min(parts.size(), kMostFlown);
+  Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));
+  const auto add = [&](const Part& part) {
+    if (shall_end && shall_end())
+      throw std::invalid_argument("ended while methods were chosen for the accuracy");
+    const std::size_t place = choice.add(part);
+    if (otherwise == WithoutAMethod::kRefuse) requireKept(bill, now.scene);
+    return place;
+  };
+  if (parts.size() <= kMostFlown) {
+    for (const Part& part : parts) add(part);
+  } else {
+    const auto kinds = byKind(std::move(parts));
+    const std::size_t of_each = std::max<std::size_t>(1, kMostFlown / kinds.size());
+    for (const auto& [kind, alike] : kinds) {
+      std::size_t dearest = add(alike[0]);
+      for (std::size_t i = 1; i < alike.size(); ++i) {
+        if (i >= of_each) {
+          choice.addUnflown(alike[i].indices[0], dearest);
+          continue;
+        }
+        const std::size_t place = add(alike[i]);
+        if (choice.costOf(place) > choice.costOf(dearest)) dearest = place;
+      }
+    }
+  }
+  choice.finish();
+  return bill;
+}
+
+Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
+  const auto part = partOf(now, {body});
+  if (!part) return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
+  Bill next = bill;
+  next.tick = now.tick;
+  next.body_steps = 0;
+  for (auto one = next.classes.begin(); one != next.classes.end();) {
+    one->bodies.erase(std::remove(one->bodies.begin(), one->bodies.end(), body), one->bodies.end());
+    one = one->bodies.empty() ? next.classes.erase(one) : one + 1;
+  }
+  Choice choice(next, allowanceOf(bill.budget, now.scene.step_s(), 1, 1));
+  choice.add(*part);
+  choice.finish();
+  return next;
+}
+
 Bill plan(const Scene& scene, const Budget& budget) {
   Scene bare = scene;
   bare.accuracy.reset();
@@ -232,9 +242,7 @@ Bill plan(const Scene& scene, const Budget& budget) {
   bare.integrator = "exact";
   bare.substeps = 1;
   const Simulator simulator(bare);
-  Bill bill = planFrom({simulator.scene(), simulator.bodies(), {}, 0}, budget);
-  requireKept(bill, scene);
-  return bill;
+  return planFrom({simulator.scene(), simulator.bodies(), {}, 0}, budget, WithoutAMethod::kRefuse);
 }
 
 std::vector<MethodOfBodies> methodsOf(const Bill& bill) {

@@ -32,28 +32,50 @@ void AccuracyWatch::take(Bill bill) {
   state_.bill = std::move(bill);
 }
 
+void AccuracyWatch::lookAt(Eigen::Index body) {
+  if (is_coupled_) body = 0;
+  if (std::find(asked_.begin(), asked_.end(), body) == asked_.end()) asked_.push_back(body);
+}
+
 void AccuracyWatch::beginTick(const Situation& now) {
   looked_at_.reset();
-  if (ticks_ % apart_ == 0) looked_at_ = is_coupled_ ? wholeOf(now) : partOf(now, {next_});
+  const bool is_asked = !asked_.empty();
+  if (is_asked) {
+    body_ = asked_.front();
+    asked_.pop_front();
+  } else if (ticks_ % apart_ == 0) {
+    body_ = next_;
+    next_ = is_coupled_ ? 0 : (next_ + 1) % now.bodies.count();
+  } else {
+    return;
+  }
+  looked_at_ = is_coupled_ ? wholeOf(now) : partOf(now, {body_});
+  if (!is_asked || !state_.bill.budget.replan) return;
+  // Tried before the tick is taken: the method may have become a very bad one.
+  Flight flight(*looked_at_, methods_[body_]);
+  flight.step();
+  note(sampleOf(flight.bodies()));
 }
 
 void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen) {
   ++ticks_;
   if (!looked_at_) return;
-  const Eigen::Index body = next_;
-  next_ = is_coupled_ ? 0 : (next_ + 1) % bodies.count();
   const bool is_frozen = std::any_of(frozen.begin(), frozen.end(), [&](const FrozenBody& one) {
-    return is_coupled_ || one.body == body;
+    return is_coupled_ || one.body == body_;
   });
-  if (is_frozen) return forget(body);
+  if (is_frozen) return forget(body_);
+  note(sampleOf(rowsOf(bodies, looked_at_->indices)));
+}
+
+LocalError AccuracyWatch::sampleOf(const Bodies& after) const {
   LocalError sample;
   sample.tick = looked_at_->tick;
-  sample.body = body;
-  sample.error = localError(*looked_at_, rowsOf(bodies, looked_at_->indices), methods_[body]);
+  sample.body = body_;
+  sample.error = localError(*looked_at_, after, methods_[body_]);
   sample.predicted = predictedFrom(sample.error, roundingOfTick(looked_at_->bodies, tick_s_),
-                                   state_.bill.forecasts[body]);
+                                   state_.bill.forecasts[body_]);
   sample.share = kShareOfBudget * shareOf(state_.bill.budget, sample.predicted, {});
-  note(sample);
+  return sample;
 }
 
 Deviation AccuracyWatch::predictedFrom(const Deviation& error, const Deviation& rounding,
@@ -94,11 +116,14 @@ void AccuracyWatch::findWorst() {
 }
 
 std::optional<Eigen::Index> AccuracyWatch::bodyToReplan() const {
-  if (!state_.bill.budget.replan || !state_.latest || state_.latest->share <= kAlarm)
-    return std::nullopt;
-  const Eigen::Index body = state_.latest->body;
-  if (!last_[body] || ticks_ < next_plan_[body]) return std::nullopt;
-  return body;
+  if (!state_.bill.budget.replan || state_.keepsBudget()) return std::nullopt;
+  const LocalError* worst = nullptr;
+  for (const auto& last : last_)
+    if (last && last->share > kAlarm && ticks_ >= next_plan_[last->body] &&
+        (!worst || last->share > worst->share))
+      worst = &*last;
+  if (!worst) return std::nullopt;
+  return worst->body;
 }
 
 void AccuracyWatch::replan(Bill bill, Eigen::Index body) {
@@ -107,7 +132,7 @@ void AccuracyWatch::replan(Bill bill, Eigen::Index body) {
   take(std::move(bill));
   ++state_.bills;
   forget(body);  // it was of the method before
-  next_ = body;  // how the new choice does is the first thing to know
+  lookAt(body);  // to know how the new choice does
 }
 
 bool AccuracyWatch::reset() {
@@ -118,6 +143,7 @@ bool AccuracyWatch::reset() {
   take(first_);
   ticks_ = 0;
   next_ = 0;
+  asked_.clear();
   looked_at_.reset();
   std::fill(last_.begin(), last_.end(), std::nullopt);
   std::fill(next_plan_.begin(), next_plan_.end(), 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -14,9 +15,12 @@ class AccuracyWatch {
  public:
   AccuracyWatch(Bill bill, const Scene& scene);
 
+  /// An input changed the body at once: it is the next to be looked at.
+  void lookAt(Eigen::Index body);
+
   /// A tick begins; impulses have been given.
   void beginTick(const Situation& now);
-  /// It has ended; `is_frozen` tells which bodies do not move.
+  /// It has ended; `frozen` are the bodies that do not move.
   void endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen);
 
   /// The body that a new choice is due for, if any. One that was chosen for anew is not again for a
@@ -33,6 +37,7 @@ class AccuracyWatch {
 
  private:
   void take(Bill bill);
+  LocalError sampleOf(const Bodies& after) const;
   Deviation predictedFrom(const Deviation& error, const Deviation& rounding,
                           const Forecast& forecast) const;
   void note(const LocalError& sample);
@@ -45,7 +50,9 @@ class AccuracyWatch {
   bool is_coupled_;
   Tick apart_;                                   // of samples [ticks]
   Tick ticks_ = 0;                               // since the start or the reset
-  Eigen::Index next_ = 0;                        // body to look at
+  Eigen::Index next_ = 0;                        // body whose turn it is
+  std::deque<Eigen::Index> asked_;               // bodies to look at before
+  Eigen::Index body_ = 0;                        // the one that is looked at
   std::optional<Part> looked_at_;                // at the beginning of this tick
   std::vector<Method> methods_;                  // of each body
   std::vector<std::optional<LocalError>> last_;  // of each body

@@ -92,7 +92,8 @@ void requireRigid(const SceneBody& body) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
+Simulator::Simulator(Scene scene, const std::function<bool()>& shall_end)
+    : scene_(std::move(scene)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
   requireUniqueFrames(scene_);
@@ -102,8 +103,8 @@ Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
   for (const SceneBody& body : scene_.bodies) addBody(body);
   bodies_ = before_ = initial_;
   if (scene_.accuracy) {
-    Bill bill = planFrom({scene_, bodies_, *applied_, tick_}, *scene_.accuracy);
-    requireKept(bill, scene_);
+    Bill bill = planFrom({scene_, bodies_, *applied_, tick_}, *scene_.accuracy,
+                         WithoutAMethod::kRefuse, shall_end);
     scene_.methods = methodsOf(bill);
     watch_ = std::make_unique<AccuracyWatch>(std::move(bill), scene_);
   }
@@ -180,6 +181,7 @@ void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
   std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
   for (const ImpulseInput& input : impulses) {
     if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
+    if (watch_) watch_->lookAt(input.body);
     BodyState body = bodies_.state(input.body);
     const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
     body.P_WB += impulse.f_F;
@@ -202,8 +204,8 @@ void Simulator::step() {
   copyState(bodies_, before_);
   latchInputs();
   if (watch_) {
-    replanIfDue();
     watch_->beginTick({scene_, bodies_, *applied_, tick_});
+    replanIfDue();
   }
   const double start_s = static_cast<double>(tick_) * scene_.step_s();
   for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());

@@ -76,6 +76,8 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
         "real_time_factor is not 1 and there is no /clock: the stamps of other nodes and this "
         "simulation's time part; set /use_sim_time");
 
+  if (scene.accuracy)
+    ROS_INFO("choosing what keeps %s, by flying it", summary(*scene.accuracy).c_str());
   SimNode node(nh, private_nh, queue, std::move(scene), options);
   for (const std::string& warning : node.scene().warnings) ROS_WARN("%s", warning.c_str());
   ROS_INFO("%s", summary(node.scene()).c_str());

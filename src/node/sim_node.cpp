@@ -26,7 +26,7 @@ std::int64_t wallPeriod(const Scene& scene, double real_time_factor) {
 SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue,
                  Scene scene, const NodeOptions& options)
     : queue_(queue),
-      simulator_(std::move(scene)),
+      simulator_(std::move(scene), [] { return ros::isShuttingDown() || !ros::ok(); }),
       time_{options.start_time_ns, simulator_.scene().step_ns},
       options_(options),
       pace_(wallPeriod(simulator_.scene(), options.real_time_factor)),

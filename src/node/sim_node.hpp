@@ -22,6 +22,7 @@ namespace rigid_body_sim {
 class SimNode {
  public:
   /// @param nh takes its callbacks from `queue`
+  /// @throws std::invalid_argument as Simulator, also when ROS is shut down meanwhile
   SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue, Scene scene,
           const NodeOptions& options);
 
