@@ -64,7 +64,7 @@ inline SceneBody sceneBodyOf(const reference::Case& one,
   return body;
 }
 
-inline Scene sceneOf(const SceneBody& body, const std::string& integrator = "split2") {
+inline Scene sceneOf(const SceneBody& body, const std::string& integrator = Scene().integrator) {
   Scene scene;
   scene.integrator = integrator;
   scene.bodies = {body};

@@ -5,18 +5,25 @@
 namespace rigid_body_sim {
 namespace {
 
-/// Brings a pair that is within rounding of unit length back to it.
-double unitScale(double a, double b) { return 1.5 - 0.5 * (a * a + b * b); }
-
-HalfAngle renormalized(const HalfAngle& a) {
-  const double scale = unitScale(a.cos, a.sin);
-  return {scale * a.cos, scale * a.sin};
-}
-
 /// Shortest rotation that takes the unit vector m to the axis sign_d e_d, unless d is 1.
 Quaterniond toAxis(const Vector3d& m, int d, double sign_d) {
   const Vector3d v = m.cross(Vector3d(sign_d * Vector3d::Unit(d)));
   return Quaterniond(1 + std::abs(m(d)), v.x(), v.y(), v.z()).normalized();
+}
+
+/// q = a (w, x, y, z), of unit length. Number by number: a quaternion put together in memory and
+/// read back as a whole would wait for its parts to get there.
+inline void setProduct(const Quaterniond& a, double w, double x, double y, double z,
+                       Quaterniond& q) {
+  const double qw = a.w() * w - a.x() * x - a.y() * y - a.z() * z;
+  const double qx = a.w() * x + a.x() * w + a.y() * z - a.z() * y;
+  const double qy = a.w() * y + a.y() * w + a.z() * x - a.x() * z;
+  const double qz = a.w() * z + a.z() * w + a.x() * y - a.y() * x;
+  const double scale = 1 / std::sqrt(qw * qw + qx * qx + qy * qy + qz * qz);
+  q.w() = scale * qw;
+  q.x() = scale * qx;
+  q.y() = scale * qy;
+  q.z() = scale * qz;
 }
 
 }  // namespace
@@ -66,16 +73,19 @@ Coasting::Coasting(const Quaterniond& q_WB, const Vector3d& m_B, const Vector3d&
   d1_ = std::sqrt(c_ * c_ + kc2_ * s_ * s_);
 }
 
-Quaterniond Coasting::step() {
+void Coasting::step(Quaterniond& q_WB) {
   if (d_ == 1) {
-    psi_ = renormalized(psi_ * turn_);
-    return rigid_body_sim::renormalized(q_WE_ * turned());
+    psi_ = normalized(psi_ * turn_);
+    const Vector3d v = psi_.sin * axis_B_;
+    setProduct(q_WE_, psi_.cos, v.x(), v.y(), v.z(), q_WB);
+    return;
   }
   // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
   const double i = 1 / (d1_ * d1_ + k2cn2_ * s_ * s_);
   double s = (s_ * cn_ * dn_ + sn_ * c_ * d1_) * i;
   double c = (c_ * cn_ - s_ * d1_ * sn_ * dn_) * i;
-  const double scale = unitScale(s, c);
+  // Back to s^2 + c^2 = 1 by a Newton step.
+  const double scale = 1.5 - 0.5 * (s * s + c * c);
   s *= scale;
   c *= scale;
   const double d = std::sqrt(c * c + kc2_ * s * s);
@@ -84,24 +94,21 @@ Quaterniond Coasting::step() {
   const double den = 1 + den_ * (s * s - sn_ * s_ * c * d);
   const double cross = cross_ * (c_ * s - s_ * c);
   const double dot = dot_ * c_ * c + s_ * s;
-  HalfAngle between = halfArgument(den * dot + num * cross, num * dot - den * cross);
+  HalfAngle between = rootDirection(den * dot + num * cross, num * dot - den * cross);
   if ((d_ == 0) != (sign_d_ < 0)) between.sin = -between.sin;
-  psi_ = renormalized(psi_ * (turn_ * between));
+  psi_ = normalized(psi_ * (turn_ * between));
   s_ = s;
   c_ = c;
   d1_ = d;
-  return rigid_body_sim::renormalized(q_WE_ * turned());
-}
 
-Quaterniond Coasting::turned() const {
+  // exp(psi about E) P with P along (1 + |m_d|, m x E), the shortest rotation of m to E.
   const double C = psi_.cos, S = psi_.sin;
-  if (d_ == 1) return {C, S * axis_B_.x(), S * axis_B_.y(), S * axis_B_.z()};
-  // P is (1 + |m_d|, m x E), of length sqrt(2 (1 + |m_d|)).
-  const double w = 1 + std::abs(B_d_) * d1_;
-  const double scale = 1 / std::sqrt(2 * w);
-  const double c = scale * sign_d_ * B_c_ * c_, s = scale * sign_d_ * B_2_ * s_;
-  if (d_ == 2) return {scale * w * C, C * s + S * c, S * s - C * c, scale * w * S};
-  return {scale * w * C, scale * w * S, C * c + S * s, S * c - C * s};
+  const double w = 1 + std::abs(B_d_) * d;
+  const double x = sign_d_ * B_c_ * c, y = sign_d_ * B_2_ * s;
+  if (d_ == 2)
+    setProduct(q_WE_, w * C, C * y + S * x, S * y - C * x, w * S, q_WB);
+  else
+    setProduct(q_WE_, w * C, w * S, C * x + S * y, S * x - C * y, q_WB);
 }
 
 Vector3d Coasting::m_B() const {

@@ -20,16 +20,13 @@ class Coasting {
   /// principal moments, ascending [kg m^2]; @param h the step [s], any sign.
   Coasting(const Quaterniond& q_WB, const Vector3d& m_B, const Vector3d& I, double h);
 
-  /// One step on; returns q_WB.
-  Quaterniond step();
+  /// One step on; gives the attitude after it.
+  void step(Quaterniond& q_WB);
 
   /// Angular momentum in body axes [kg m^2/s].
   Vector3d m_B() const;
 
  private:
-  /// exp(psi axis) P, with P the shortest rotation of the momentum to the axis.
-  Quaterniond turned() const;
-
   // Constants. The momentum's axis E is that of body axis d, with the momentum's sign there; with
   // d_ = 1, for bodies that turn about a fixed axis, it is that axis itself.
   int d_ = 1;

@@ -128,15 +128,21 @@ class Exact : public Integrator {
 
   void drift(Bodies& bodies, double h) {
     for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-      bodies.p_WBcm.row(i) += (h / bodies.mass(i)) * bodies.P_WB.row(i);
+      const double s = h / bodies.mass(i);
+      for (int k = 0; k < 3; ++k) bodies.p_WBcm(i, k) += s * bodies.P_WB(i, k);
       Spin& spin = spins_[i];
       // Without spin, as a point mass always is, there is no rotation to compute.
       if (spin.L_W.isZero(0)) continue;
-      if (spin.drift_s == h)
-        coast(spin, bodies.moments(i), h);
-      else
+      if (spin.drift_s != h)
         rotate(spin, bodies.moments(i), h);
-      bodies.q_WB.row(i) = spin.q_WB.coeffs();
+      else if (spin.is_coasting)
+        spin.coasting.step(spin.q_WB);
+      else
+        beginToCoast(spin, bodies.moments(i), h);
+      bodies.q_WB(i, 0) = spin.q_WB.x();
+      bodies.q_WB(i, 1) = spin.q_WB.y();
+      bodies.q_WB(i, 2) = spin.q_WB.z();
+      bodies.q_WB(i, 3) = spin.q_WB.w();
     }
   }
 
@@ -150,11 +156,11 @@ class Exact : public Integrator {
     align(spin);
   }
 
-  /// The second equal drift in a row without torque, and all that follow.
-  static void coast(Spin& spin, const Vector3d& I, double h) {
-    if (!spin.is_coasting) spin.coasting = Coasting(spin.q_WB, spin.m_B, I, h);
+  /// The second equal drift in a row without torque.
+  static void beginToCoast(Spin& spin, const Vector3d& I, double h) {
+    spin.coasting = Coasting(spin.q_WB, spin.m_B, I, h);
     spin.is_coasting = true;
-    spin.q_WB = spin.coasting.step();
+    spin.coasting.step(spin.q_WB);
   }
 
   /// R m and L wander apart by roundings; the shortest turn of the body puts them together again.

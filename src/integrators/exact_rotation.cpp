@@ -50,7 +50,8 @@ FreeRotation exactRotation(const Vector3d& m_B, const Vector3d& I, const Inverse
   const double den = o.R + o.dc * m2_next * m2_next - o.dc * s * m2 * mc_next * md_next;
   const double cross = sign_d * (mc * m2_next - m2 * mc_next);
   const double dot = mc * mc_next + m2 * m2_next;
-  HalfAngle turn = f.slow * halfArgument(den * dot + num * cross, num * dot - den * cross);
+  HalfAngle turn =
+      f.slow * normalized(rootDirection(den * dot + num * cross, num * dot - den * cross));
   if (o.d == 0) turn.sin = -turn.sin;
   HalfAngle spin = halfAngle(a.a2 * G * h) * turn;
   spin.sin *= sign_d;

@@ -84,7 +84,7 @@ OrbitStep orbitStep(const Orbit& o, double time) {
   const double fold = x.half_periods != 0 && std::fmod(x.half_periods, 2) != 0 ? -1 : 1;
   const double sign = time < 0 ? -1 : 1;
   // The periodic part is the argument of this complex number.
-  const HalfAngle periodic = halfArgument(f.dn, sign * o.dc / o.lambda * f.sn * f.cn);
+  const HalfAngle periodic = normalized(rootDirection(f.dn, sign * o.dc / o.lambda * f.sn * f.cn));
   return {sign * fold * f.sn, fold * f.cn, f.dn,
           periodic * halfAngle(sign * secularAngle(o, x, f))};
 }

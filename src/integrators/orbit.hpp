@@ -58,14 +58,19 @@ inline HalfAngle operator*(const HalfAngle& a, const HalfAngle& b) {
   return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
 }
 
-/// Half of the argument of the complex number (re, im), not zero: no trigonometric function.
-inline HalfAngle halfArgument(double re, double im) {
+/// The same direction, of unit length.
+inline HalfAngle normalized(const HalfAngle& a) {
+  const double scale = 1 / std::sqrt(a.cos * a.cos + a.sin * a.sin);
+  return {scale * a.cos, scale * a.sin};
+}
+
+/// Half of the argument of the complex number (re, im), not zero, but for its length: the direction
+/// of the root, which takes no trigonometric function.
+inline HalfAngle rootDirection(double re, double im) {
   // sqrt(z) is along z + |z|; where that cancels, along i (|z| - re) + im instead.
-  const double size = std::sqrt(re * re + im * im);
-  const double sum = size + std::abs(re);
-  const double scale = 1 / std::sqrt(2 * size * sum);
-  if (re >= 0) return {scale * sum, scale * im};
-  return {scale * std::abs(im), std::copysign(scale * sum, im)};
+  const double sum = std::sqrt(re * re + im * im) + std::abs(re);
+  if (re >= 0) return {sum, im};
+  return {std::abs(im), std::copysign(sum, im)};
 }
 
 }  // namespace rigid_body_sim
