@@ -81,15 +81,12 @@ TEST(AccuracyBill, DiagnosticsWarnWhenAPushBreaksTheBudget) {
 
 TEST(AccuracyBill, ANewChoiceIsPublishedAndTheSameAtAnySpeed) {
   Budgeted fast("fast"), real("real");
-  fast.push();
-  real.push();
-  fast.sim.unpause();
-  real.sim.unpause();
-  need("both", [&] {
-    return fast.states.messages.back().tick >= kTicks && real.states.messages.back().tick >= kTicks;
-  });
-  fast.sim.pause();
-  real.sim.pause();
+  for (Budgeted* one : {&fast, &real}) {  // one by one: the fast one would take all the time
+    one->push();
+    one->sim.unpause();
+    need("its ticks", [&] { return one->states.messages.back().tick >= kTicks; });
+    one->sim.pause();
+  }
   fast.bills.expect(2);
   real.bills.expect(2);
   EXPECT_EQ(fast.bills.messages[1].data, real.bills.messages[1].data);
@@ -111,7 +108,7 @@ TEST(AccuracyBill, ANewChoiceIsPublishedAndTheSameAtAnySpeed) {
     const auto found = now.values.find("accuracy plans made");
     return found != now.values.end() && found->second != "1";
   });
-  EXPECT_EQ(status.level, DiagnosticStatus::OK) << status.message;
+  EXPECT_FALSE(has(status.message, "accuracy")) << status.message;
 }
 
 }  // namespace

@@ -47,8 +47,11 @@ TEST(SceneMethod, TakesAnAccuracyInsteadOfAMethod) {
   EXPECT_FALSE(one.accuracy->replan);
   EXPECT_FALSE(sceneFrom("{substeps: 1" + bodies).accuracy);
   EXPECT_TRUE(contains(summary(scene), {"what keeps 1e-06 rad and 0.5 m over 60 s"}));
-  EXPECT_TRUE(contains(summary(Simulator(one).scene()),
-                       {"integrators: exact (1 body) to keep 2 m over 0.5 s"}));
+  const Scene turning = sceneFrom(
+      "{accuracy: {attitude_rad: 1.0e-6, over_s: 0.5}, bodies: {b: {mass: 1, inertia: [1, 2, 2.5], "
+      "angular_velocity: [1, 2, 3]}}}");
+  EXPECT_TRUE(contains(summary(Simulator(turning).scene()),
+                       {"integrators: exact (1 body) to keep 1e-06 rad over 0.5 s"}));
 }
 
 TEST(SceneMethod, RefusesAnAccuracyThatIsIncompleteOrNotAlone) {

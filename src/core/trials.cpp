@@ -12,7 +12,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Errors of attitude beyond this no longer follow the order of the method [rad].
-constexpr double kLost_rad = 0.3;
+constexpr double kLostAttitude = 0.3;
 
 /// What the adaptive flights of the reference are reckoned as, in steps a tick.
 constexpr double kStepsOfReference = 30;
@@ -20,19 +20,20 @@ constexpr double kStepsOfReference = 30;
 constexpr int kSamplesOfLocalError = 200;
 
 /// 1 to 8, then four an octave: finer would not make a cheaper choice by more than a quarter.
-std::vector<int> substepCounts() {
-  std::vector<int> counts = {1, 2, 3};
-  for (int octave = 4; octave <= 1024; octave *= 2)
-    for (int quarter = 0; quarter < 4; ++quarter) counts.push_back(octave + quarter * octave / 4);
+const std::vector<int>& substepCounts() {
+  static const std::vector<int> counts = [] {
+    std::vector<int> counts = {1, 2, 3};
+    for (int octave = 4; octave <= 1024; octave *= 2)
+      for (int quarter = 0; quarter < 4; ++quarter) counts.push_back(octave + quarter * octave / 4);
+    return counts;
+  }();
   return counts;
 }
 
-const std::vector<int> kSubsteps = substepCounts();
-
 /// The first of the counts that is not less than `count`.
 int indexOf(double count) {
-  return static_cast<int>(std::lower_bound(kSubsteps.begin(), kSubsteps.end(), count) -
-                          kSubsteps.begin());
+  return static_cast<int>(std::lower_bound(substepCounts().begin(), substepCounts().end(), count) -
+                          substepCounts().begin());
 }
 
 /// What an error will be at the end of a span that is longer than the flight. It grows with the
@@ -58,7 +59,7 @@ struct Trials::Rung {
   double slope = 0;            // measured; 0: not yet
 
   bool isDone() const { return next <= failed || next >= kept; }
-  Method method() const { return {row->name, kSubsteps[next]}; }
+  Method method() const { return {row->name, substepCounts()[next]}; }
   void giveUp() { next = kept; }
 
   /// It keeps the budget with a share of it, at most one: perhaps fewer substeps do, too.
@@ -72,16 +73,16 @@ struct Trials::Rung {
     const int before = failed;
     failed = next;
     if (is_lost) {
-      next = std::max(failed + 1, indexOf(4.0 * kSubsteps[failed]));
+      next = std::max(failed + 1, indexOf(4.0 * substepCounts()[failed]));
     } else {
       if (share > 0.75 * failed_share) return giveUp();
       if (std::isfinite(failed_share))
         slope = std::log(failed_share / share) /
-                std::log(double(kSubsteps[failed]) / kSubsteps[before]);
+                std::log(double(substepCounts()[failed]) / substepCounts()[before]);
       failed_share = share;
       next = std::max(failed + 1, wanted(share));
     }
-    if (kept < static_cast<int>(kSubsteps.size())) next = std::min(next, kept - 1);
+    if (kept < static_cast<int>(substepCounts().size())) next = std::min(next, kept - 1);
   }
 
  private:
@@ -89,7 +90,7 @@ struct Trials::Rung {
   /// error may be far above the law of small steps, and to try too few costs less than too many.
   int wanted(double share) const {
     const double power = slope > 0 ? std::clamp(slope, 0.5 * order, 2.0 * order) : 2.0 * order;
-    return indexOf(kSubsteps[next] * std::pow(1.02 * share, 1 / power));
+    return indexOf(substepCounts()[next] * std::pow(1.02 * share, 1 / power));
   }
 };
 
@@ -143,7 +144,7 @@ Deviation Trials::errorOf(const Method& method) {
     for (Eigen::Index i = 0; i < truth[k].count(); ++i)
       whole = worse(whole, deviation(flight.bodies(), truth[k], i));
     if (2 * k <= truth.size()) half = whole;
-    if (whole.attitude_rad > 3 * kLost_rad || !std::isfinite(whole.position_m)) break;
+    if (whole.attitude_rad > 3 * kLostAttitude || !std::isfinite(whole.position_m)) break;
   }
   error = {extrapolated(half.attitude_rad, whole.attitude_rad, allowance_.span),
            extrapolated(half.position_m, whole.position_m, allowance_.span)};
@@ -151,7 +152,7 @@ Deviation Trials::errorOf(const Method& method) {
 }
 
 std::vector<Trials::Rung> Trials::rungs(const std::string& except) const {
-  const int count = static_cast<int>(kSubsteps.size());
+  const int count = static_cast<int>(substepCounts().size());
   std::vector<Rung> rungs;
   for (const IntegratorRow& row : integrators()) {
     // An adaptive method's price is not known before, and its steps would couple the bodies.
@@ -185,7 +186,7 @@ std::optional<Offer> Trials::cheapest(const Budget& budget, const std::string& e
     const Deviation error = errorOf(method);
     const double share = shareOf(budget, error, doubt());
     if (share > 1) {
-      next->fails(share, error.attitude_rad > kLost_rad);
+      next->fails(share, error.attitude_rad > kLostAttitude);
       continue;
     }
     next->keeps(share);
