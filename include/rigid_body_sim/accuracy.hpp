@@ -18,12 +18,13 @@ struct Offer {
                     ///< registry and the effects, not from a clock
 };
 
-/// Bodies that got the same method. The figures are those of the one that comes nearest to the
-/// budget; the last three are of the same search, for that body.
+/// Bodies that got the same method, all of them free or none. The figures are those of the one that
+/// comes nearest to the budget; the last three are of the same search, for that body.
 struct ClassBill {
   std::vector<Eigen::Index> bodies;
   std::size_t flown = 0;      ///< how many of them were flown; the others are like one of those
   Eigen::Index hardest = 0;   ///< the body whose figures these are
+  bool is_free = false;       ///< nothing acts on them
   bool keeps_budget = false;  ///< false: the best there is
   Offer chosen;
   Deviation doubt;                  ///< of the reference
@@ -93,8 +94,8 @@ struct LocalError {
 
 /// Whether a running simulation keeps its budget. Bodies are looked at in turn, one tick of one
 /// body at a time: every tick if there are 30 or more, each body every 30 ticks if they are fewer.
-/// Bodies that are coupled are looked at together, every 30 ticks a body. A body that got an impulse
-/// is looked at in that tick, or as soon as those before it have been.
+/// Bodies that are coupled are looked at together, every 30 ticks a body. A body that got an
+/// impulse is looked at in that tick, or as soon as those before it have been.
 struct AccuracyState {
   Bill bill;      ///< the latest
   int bills = 1;  ///< how many there were

@@ -89,7 +89,7 @@ class Choice {
     const std::optional<Offer> kept = trials->cheapest(bill_.budget);
     const Offer offer = kept ? *kept : trials->best(bill_.budget);
     const double share = shareOf(bill_.budget, offer.error, trials->doubt());
-    const std::size_t place = placeOf(offer.method);
+    const std::size_t place = placeOf(offer.method, part.effects.empty());
     ClassBill& one = bill_.classes[place];
     const Forecast forecast = trials->forecast(offer);
     for (const Eigen::Index body : part.indices) {
@@ -134,12 +134,16 @@ class Choice {
   }
 
  private:
-  std::size_t placeOf(const Method& method) {
+  std::size_t placeOf(const Method& method, bool is_free) {
     std::size_t place = 0;
-    while (place < bill_.classes.size() && !(bill_.classes[place].chosen.method == method)) ++place;
+    const auto fits = [&](const ClassBill& one) {
+      return one.chosen.method == method && one.is_free == is_free;
+    };
+    while (place < bill_.classes.size() && !fits(bill_.classes[place])) ++place;
     if (place == bill_.classes.size()) {
       bill_.classes.emplace_back();
       bill_.classes.back().chosen.method = method;
+      bill_.classes.back().is_free = is_free;
     }
     hardest_.resize(bill_.classes.size());
     while (shares_.size() < bill_.classes.size()) {
