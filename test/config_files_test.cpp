@@ -121,6 +121,9 @@ TEST(DefaultYaml, HoldsTheDefaultsOfTheScene) {
       SceneSources());
   EXPECT_EQ(written.step_ns, real.step_ns);
   EXPECT_EQ(written.integrator, real.integrator);
+  EXPECT_EQ(written.substeps, real.substeps);
+  EXPECT_EQ(written.tolerance, real.tolerance);
+  EXPECT_EQ(written.accuracy.has_value(), real.accuracy.has_value());
   EXPECT_EQ(written.gyroscopic, real.gyroscopic);
   const SceneBody& body = written.bodies.front();
   EXPECT_EQ(body.X_WL.matrix(), real.bodies.front().X_WL.matrix());
@@ -154,6 +157,7 @@ TEST(DefaultYaml, NamesEveryKeyThatIsRead) {
   EXPECT_GE(keys.size(), 16u);
   for (const std::string where :
        {"limits: {?}", "{bodies: {ball: {point_mass: 1}}, effects: {?}}",
+        "{bodies: {ball: {point_mass: 1}}, accuracy: {position_m: 1, over_s: 1, ?}}",
         "bodies: {ball: {mass: 1, inertia: [1, 1, 1], ?}}",
         "bodies: {ball: {box: {size: [1, 1, 1], density: 1, ?}}}",
         "bodies: {ball: {sphere: {radius: 1, density: 1, ?}}}",

@@ -142,11 +142,10 @@ TEST(SceneEffects, MayBeDeclinedWhereTheSceneHasNone) {
 }
 
 TEST(SceneSummary, SaysInOneLineWhatIsSimulated) {
-  EXPECT_EQ(
-      summary(sceneFrom("{step_s: 0.005, effects: {gravity: {acceleration: [0, 0, -9.8]}, "
-                        "gyroscopic: false}, bodies: {a: {point_mass: 1}, b: {point_mass: 2, "
-                        "gravity: false}}}")),
-      "2 bodies; effects: gravity (1 body), gyroscopic off; integrator: exact, step 0.005 s");
+  EXPECT_EQ(summary(sceneFrom("{step_s: 0.005, effects: {gravity: {acceleration: [0, 0, -9.8]}, "
+                              "gyroscopic: false}, bodies: {a: {point_mass: 1}, b: {point_mass: 2, "
+                              "gravity: false}}}")),
+            "2 bodies; effects: gravity (1 body), gyroscopic off; integrator: exact, step 0.005 s");
 }
 
 struct BadScene {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "rigid_body_sim/effect.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/mass_properties.hpp"
+#include "rigid_body_sim/method.hpp"
 #include "rigid_body_sim/parameters.hpp"
 #include "rigid_body_sim/urdf.hpp"
 
@@ -29,17 +32,29 @@ struct SceneBody {
 /// Name of the frame at a body's centre of mass, along its principal axes.
 inline std::string comFrameName(const std::string& body) { return body + "/com"; }
 
+/// How far any body's pose may be from the truth, at any time of a span from the start.
+struct Budget {
+  double attitude_rad = std::numeric_limits<double>::infinity();  ///< infinite: any will do
+  double position_m = std::numeric_limits<double>::infinity();
+  double over_s = 0;    ///< [s]
+  bool replan = false;  ///< choose anew when inputs have broken it
+};
+
 /// All that a simulation starts from.
 struct Scene {
   std::int64_t step_ns = 20'000'000;
   std::string integrator = "exact";
   int substeps = 1;          ///< steps of the integrator a tick
   double tolerance = 1e-12;  ///< see IntegratorOptions
+  /// Bodies by the method that steps them, each body once; empty: all by `integrator`.
+  std::vector<MethodOfBodies> methods;
+  /// If there, methods are chosen to keep it, and the four members before do not count.
+  std::optional<Budget> accuracy;
   Gyroscopic gyroscopic = Gyroscopic::kOn;
   std::vector<SceneBody> bodies;
   std::vector<std::shared_ptr<const Effect>> effects;
   std::string import_report;          ///< what the URDF files held; empty without any
-  std::vector<std::string> warnings;  ///< of the import, one line each
+  std::vector<std::string> warnings;  ///< of the import and of the integrator, one line each
 
   double step_s() const { return static_cast<double>(step_ns) / 1e9; }
 };
@@ -60,8 +75,16 @@ Scene readScene(const Parameters& parameters, const SceneSources& sources);
 /// Reads a scene file (YAML). @throws std::invalid_argument as readScene, also for unknown keys.
 Scene readSceneFile(const std::string& path);
 
+/// `1e-06 rad and 0.001 m over 60 s`.
+std::string summary(const Budget& budget);
+
 /// One line that says what a body is: mass, centre of mass, principal moments.
 std::string summary(const SceneBody& body);
+
+/// The method of a scene that has neither `methods` nor `accuracy`.
+inline Method methodOf(const Scene& scene) {
+  return {scene.integrator, scene.substeps, scene.tolerance};
+}
 
 /// One line that says what is simulated: `3 bodies; effects: gravity (2 bodies), gyroscopic on;
 /// integrator: exact, step 0.02 s`.

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "rigid_body_sim/accuracy.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/scene.hpp"
 #include "rigid_body_sim/wrench.hpp"
@@ -63,6 +66,8 @@ class AppliedWrenches : public Effect {
   std::string name() const override { return "applied"; }
   std::size_t bodyCount() const override { return held_.size(); }
   void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const override;
+  std::shared_ptr<const Effect> restrictedTo(
+      const std::vector<Eigen::Index>& bodies) const override;
 
   /// Ends what replaces and time end, and takes up `begun`. Returns those that ran out at `tick`.
   std::vector<WrenchInput> update(std::vector<WrenchInput> begun, Tick tick);
@@ -73,15 +78,33 @@ class AppliedWrenches : public Effect {
   std::vector<WrenchInput> held_;  // ordered by body, source, sequence, entry
 };
 
+class AccuracyWatch;
+class Group;
+
+/// A body that turns further in a step than its method bears.
+struct OverTurnedBody {
+  Eigen::Index body;
+  Method method;
+  double turn;      ///< [rad] a step
+  double max_turn;  ///< what the method bears
+};
+
 /// The state of a scene and the loop that advances it. Deterministic: the same scene and the same
 /// inputs give the same bits. Not thread-safe: one thread owns it.
 class Simulator {
  public:
   /// @throws std::invalid_argument for a scene that cannot be simulated: no body, a frame twice, an
   /// invalid tensor, a pose that is no rigid transform, an unknown integrator, a step that is not
-  /// positive.
-  explicit Simulator(Scene scene);
+  /// positive, an integrator that does not bear an effect or a body's spin, an
+  /// accuracy that no method keeps.
+  /// @param shall_end is asked now and then while methods are chosen for an accuracy, which may
+  /// take seconds; true ends that with an exception
+  explicit Simulator(Scene scene, const std::function<bool()>& shall_end = {});
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
 
+  /// With the warnings of its integrator.
   const Scene& scene() const { return scene_; }
 
   /// Ticks since the start; the state is the one at the beginning of this tick.
@@ -121,8 +144,20 @@ class Simulator {
 
   const std::vector<FrozenBody>& frozenBodies() const { return frozen_; }
 
+  /// Whether the scene's accuracy is kept; null if it asks for none.
+  const AccuracyState* accuracy() const;
+
+  /// The worst of the bodies that inputs have made too fast for their method, if any. Looks at all
+  /// bodies: not for every tick.
+  std::optional<OverTurnedBody> overTurnedBody() const;
+
  private:
+  void addBody(const SceneBody& body);
+  void makeGroups();
+  void replanIfDue();
   void latchInputs();
+  void latchWrenches();
+  void giveImpulses(std::vector<ImpulseInput> impulses);
   void freezeNonFinite(const Bodies& before);
 
   Scene scene_;
@@ -131,11 +166,10 @@ class Simulator {
   Bodies bodies_;
   Bodies before_;  // the state before the step, for freezing
   Tick tick_ = 0;
-  std::unique_ptr<Integrator> integrator_;
-  ActiveEffects active_;
-  // At a fixed address, as active_ points to it and a simulator may be moved.
+  std::vector<std::unique_ptr<Group>> groups_;
+  std::unique_ptr<AccuracyWatch> watch_;  // null: no accuracy asked for
+  // At a fixed address, as the groups point to it and a simulator may be moved.
   std::unique_ptr<AppliedWrenches> applied_ = std::make_unique<AppliedWrenches>();
-  bool applied_is_active_ = false;
   std::vector<WrenchInput> pending_wrenches_;
   std::vector<ImpulseInput> pending_impulses_;
   std::vector<WrenchInput> ended_;

@@ -3,19 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "rigid_body_sim/method.hpp"
 #include "rigid_body_sim/scene.hpp"
 
 namespace rigid_body_sim {
-
-/// A way to step a scene.
-struct Method {
-  std::string integrator = "exact";
-  int substeps = 1;          ///< a tick
-  double tolerance = 1e-12;  ///< see IntegratorOptions
-};
-
-/// `exact`, or `rk4 x 3` with substeps.
-std::string toText(const Method& method);
 
 /// The states of a scene's bodies at the ticks 0, every, 2 every ...
 struct Trajectory {
@@ -50,8 +41,8 @@ struct TrueTrajectory {
   std::string how;  ///< both ways in words
 };
 
-/// The best that is known of a flight: `exact` where halving its step changes no more than rounding,
-/// else the adaptive method; whichever is in less doubt.
+/// The best that is known of a flight: `exact` if nothing acts on the bodies, else that or the
+/// adaptive method, whichever is in less doubt.
 TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every);
 
 }  // namespace rigid_body_sim

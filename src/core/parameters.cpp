@@ -162,6 +162,21 @@ double Parameters::number(const std::string& key, const Allowed& allowed,
   return *fallback;
 }
 
+int Parameters::integer(const std::string& key, int min, int max,
+                        std::optional<int> fallback) const {
+  const Value* value = find(key);
+  const std::string expected =
+      "a whole number from " + std::to_string(min) + " to " + std::to_string(max);
+  if (!value) {
+    if (!fallback) refuse(key, "is missing; it must be " + expected);
+    return *fallback;
+  }
+  const auto* integer = std::get_if<std::int64_t>(&value->data);
+  if (!integer || *integer < min || *integer > max)
+    refuse(key, toText(*value) + " is not " + expected);
+  return static_cast<int>(*integer);
+}
+
 bool Parameters::boolean(const std::string& key, std::optional<bool> fallback) const {
   const Value* value = find(key);
   if (!value) {

@@ -21,6 +21,40 @@ std::int64_t readStep(const Parameters& parameters) {
   return step_ns;
 }
 
+/// `integrator` with its `substeps` and `tolerance`.
+void readMethod(const Parameters& parameters, Scene& scene) {
+  scene.integrator = parameters.text("integrator", scene.integrator);
+  try {
+    integratorNamed(scene.integrator);
+  } catch (const std::invalid_argument& error) {
+    parameters.refuse("integrator", error.what());
+  }
+  scene.substeps = parameters.integer("substeps", 1, kMostSubsteps, scene.substeps);
+  const bool adapts = integratorNamed(scene.integrator).order == 0;
+  if (parameters.has("tolerance") && !adapts)
+    parameters.refuse("tolerance", "the integrator '" + scene.integrator +
+                                       "' does not adapt its steps; `adaptive` takes it");
+  scene.tolerance = parameters.number("tolerance", {1e-15, 1e-2, "rad in 1 s"}, scene.tolerance);
+}
+
+std::optional<Budget> readBudget(const Parameters& parameters) {
+  if (!parameters.has("accuracy")) return std::nullopt;
+  for (const char* key : {"integrator", "substeps", "tolerance"})
+    if (parameters.has(key))
+      parameters.refuse(key, "`accuracy` chooses the method; give one of the two");
+  const Parameters block = parameters.child("accuracy");
+  if (!block.has("attitude_rad") && !block.has("position_m"))
+    parameters.refuse("accuracy", "it takes attitude_rad, position_m or both");
+  Budget budget;
+  if (block.has("attitude_rad"))
+    budget.attitude_rad = block.number("attitude_rad", positive("rad"));
+  if (block.has("position_m")) budget.position_m = block.number("position_m", positive("m"));
+  budget.over_s = block.number("over_s", {0, 1e9, "s", true});
+  budget.replan = block.boolean("replan", false);
+  block.refuseUnknown();
+  return budget;
+}
+
 std::string pathFrom(const std::string& folder, const std::string& path) {
   return path.front() == '/' || folder.empty() ? path : folder + "/" + path;
 }
@@ -103,17 +137,24 @@ void readEffects(const Parameters& parameters, const std::vector<Parameters>& bo
   effects.refuseUnknown();
 }
 
+std::string summaryOfMethods(const Scene& scene) {
+  if (scene.methods.empty())
+    return scene.accuracy ? "integrator: what keeps " + summary(*scene.accuracy)
+                          : "integrator: " + toText(methodOf(scene));
+  std::string text = "integrators: ";
+  for (const MethodOfBodies& part : scene.methods)
+    text += (&part == &scene.methods.front() ? "" : ", ") + toText(part.method) + " (" +
+            std::to_string(part.bodies.size()) + (part.bodies.size() == 1 ? " body)" : " bodies)");
+  return scene.accuracy ? text + " to keep " + summary(*scene.accuracy) : text;
+}
+
 }  // namespace
 
 Scene readScene(const Parameters& parameters, const SceneSources& sources) {
   Scene scene;
   scene.step_ns = readStep(parameters);
-  scene.integrator = parameters.text("integrator", scene.integrator);
-  try {
-    integratorNamed(scene.integrator);
-  } catch (const std::invalid_argument& error) {
-    parameters.refuse("integrator", error.what());
-  }
+  scene.accuracy = readBudget(parameters);
+  readMethod(parameters, scene);
   readUrdfs(parameters, sources, scene);
   const std::vector<Parameters> bodies = readBodies(parameters, scene);
   if (scene.bodies.empty())
@@ -152,6 +193,15 @@ std::string summary(const SceneBody& body) {
   return text.str();
 }
 
+std::string summary(const Budget& budget) {
+  std::ostringstream text;
+  if (std::isfinite(budget.attitude_rad)) text << budget.attitude_rad << " rad";
+  if (std::isfinite(budget.attitude_rad) && std::isfinite(budget.position_m)) text << " and ";
+  if (std::isfinite(budget.position_m)) text << budget.position_m << " m";
+  text << " over " << budget.over_s << " s";
+  return text.str();
+}
+
 std::string summary(const Scene& scene) {
   std::ostringstream text;
   text << scene.bodies.size() << (scene.bodies.size() == 1 ? " body" : " bodies") << "; effects: ";
@@ -159,8 +209,8 @@ std::string summary(const Scene& scene) {
     text << effect->name() << " (" << effect->bodyCount()
          << (effect->bodyCount() == 1 ? " body), " : " bodies), ");
   }
-  text << "gyroscopic " << (scene.gyroscopic == Gyroscopic::kOn ? "on" : "off")
-       << "; integrator: " << scene.integrator << ", step " << scene.step_s() << " s";
+  text << "gyroscopic " << (scene.gyroscopic == Gyroscopic::kOn ? "on" : "off") << "; "
+       << summaryOfMethods(scene) << ", step " << scene.step_s() << " s";
   return text.str();
 }
 

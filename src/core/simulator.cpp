@@ -6,6 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/accuracy_plan.hpp"
+#include "core/accuracy_watch.hpp"
+#include "core/group.hpp"
+
 namespace rigid_body_sim {
 namespace {
 
@@ -88,30 +92,49 @@ void requireRigid(const SceneBody& body) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene) : scene_(std::move(scene)) {
+Simulator::Simulator(Scene scene, const std::function<bool()>& shall_end)
+    : scene_(std::move(scene)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
-  if (scene_.substeps <= 0) throw std::invalid_argument("the number of substeps must be positive");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
   requireUniqueFrames(scene_);
-  initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
-  for (const SceneBody& body : scene_.bodies) {
-    requireRigid(body);
-    const auto i = static_cast<Eigen::Index>(frames_.size());
-    frames_.push_back(frameOf(body));
-    initial_.mass(i) = frames_.back().mass;
-    initial_.I_BBcm_B.row(i) = frames_.back().I_BBcm_B;
-    const BodyState state = stateOfLink(frames_.back(), body.X_WL, body.v_WBcm,
-                                        body.is_point_mass ? Vector3d::Zero() : body.w_WB_L);
-    if (!isFinite(state))
-      throw std::invalid_argument("body '" + body.name + "': its initial momentum is not finite");
-    initial_.setState(i, state);
-  }
-  bodies_ = before_ = initial_;
-  integrator_ = integratorNamed(scene_.integrator).make({scene_.gyroscopic, scene_.tolerance});
-  for (const auto& effect : scene_.effects) {
+  for (const auto& effect : scene_.effects)
     if (!effect) throw std::invalid_argument("an effect of the scene is null");
-    active_.add(effect.get());
+  initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
+  for (const SceneBody& body : scene_.bodies) addBody(body);
+  bodies_ = before_ = initial_;
+  if (scene_.accuracy) {
+    Bill bill = planFrom({scene_, bodies_, *applied_, tick_}, *scene_.accuracy,
+                         WithoutAMethod::kRefuse, shall_end);
+    scene_.methods = methodsOf(bill);
+    watch_ = std::make_unique<AccuracyWatch>(std::move(bill), scene_);
   }
+  for (std::string& warning : requireSuitableMethods(scene_, bodies_))
+    scene_.warnings.push_back(std::move(warning));
+  makeGroups();
+}
+
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+void Simulator::addBody(const SceneBody& body) {
+  requireRigid(body);
+  const auto i = static_cast<Eigen::Index>(frames_.size());
+  frames_.push_back(frameOf(body));
+  initial_.mass(i) = frames_.back().mass;
+  initial_.I_BBcm_B.row(i) = frames_.back().I_BBcm_B;
+  const BodyState state = stateOfLink(frames_.back(), body.X_WL, body.v_WBcm,
+                                      body.is_point_mass ? Vector3d::Zero() : body.w_WB_L);
+  if (!isFinite(state))
+    throw std::invalid_argument("body '" + body.name + "': its initial momentum is not finite");
+  initial_.setState(i, state);
+}
+
+void Simulator::makeGroups() {
+  groups_.clear();
+  for (Group& group : groupsOf(scene_))
+    groups_.push_back(std::make_unique<Group>(std::move(group)));
+  for (const auto& group : groups_) group->hold(*applied_);
 }
 
 void Simulator::apply(WrenchInput input) {
@@ -139,16 +162,26 @@ void Simulator::apply(ImpulseInput input) {
 }
 
 void Simulator::latchInputs() {
-  ended_ = applied_->update(takeDue(pending_wrenches_, tick_), tick_);
-  const bool acts = applied_->bodyCount() > 0;
-  if (acts != applied_is_active_)
-    acts ? active_.add(applied_.get()) : active_.remove(applied_.get());
-  applied_is_active_ = acts;
+  if (!pending_wrenches_.empty() || applied_->bodyCount() > 0)
+    latchWrenches();
+  else
+    ended_.clear();
+  if (!pending_impulses_.empty()) giveImpulses(takeDue(pending_impulses_, tick_));
+}
 
-  std::vector<ImpulseInput> impulses = takeDue(pending_impulses_, tick_);
+void Simulator::latchWrenches() {
+  std::vector<WrenchInput> begun = takeDue(pending_wrenches_, tick_);
+  const bool may_change = !begun.empty();
+  ended_ = applied_->update(std::move(begun), tick_);
+  if (may_change || !ended_.empty())
+    for (const auto& group : groups_) group->hold(*applied_);
+}
+
+void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
   std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
   for (const ImpulseInput& input : impulses) {
     if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
+    if (watch_) watch_->lookAt(input.body);
     BodyState body = bodies_.state(input.body);
     const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
     body.P_WB += impulse.f_F;
@@ -170,25 +203,56 @@ void Simulator::freezeNonFinite(const Bodies& before) {
 void Simulator::step() {
   copyState(bodies_, before_);
   latchInputs();
+  if (watch_) {
+    watch_->beginTick({scene_, bodies_, *applied_, tick_});
+    replanIfDue();
+  }
   const double start_s = static_cast<double>(tick_) * scene_.step_s();
-  const double step_s = scene_.step_s() / scene_.substeps;
-  for (int i = 0; i < scene_.substeps; ++i)
-    integrator_->step(bodies_, active_, start_s + i * step_s, step_s);
+  for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());
   freezeNonFinite(before_);
+  if (watch_) watch_->endTick(bodies_, frozen_);
   ++tick_;
   assert(allFinite(bodies_));
 }
 
+void Simulator::replanIfDue() {
+  const std::optional<Eigen::Index> body = watch_->bodyToReplan();
+  if (!body) return;
+  watch_->replan(planAgain(watch_->state().bill, {scene_, bodies_, *applied_, tick_}, *body),
+                 *body);
+  scene_.methods = methodsOf(watch_->state().bill);
+  makeGroups();
+}
+
+const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->state() : nullptr; }
+
 void Simulator::reset() {
   copyState(initial_, bodies_);
-  if (applied_is_active_) active_.remove(applied_.get());
-  applied_is_active_ = false;
   applied_->clear();
+  for (const auto& group : groups_) group->hold(*applied_);
+  if (watch_ && watch_->reset()) {
+    scene_.methods = methodsOf(watch_->state().bill);
+    makeGroups();
+  }
   pending_wrenches_.clear();
   pending_impulses_.clear();
   ended_.clear();
   frozen_.clear();
   ++tick_;
+}
+
+std::optional<OverTurnedBody> Simulator::overTurnedBody() const {
+  std::optional<OverTurnedBody> worst;
+  for (const auto& group : groups_) {
+    const Method& method = group->method();
+    const double max_turn = integratorNamed(method.integrator).max_turn;
+    const std::vector<Eigen::Index>& some = group->bodies();
+    const FastestBody fastest = fastestOf(some.empty() ? bodies_ : rowsOf(bodies_, some));
+    const double turn = fastest.rate * scene_.step_s() / method.substeps;
+    if (turn > max_turn && (!worst || turn / max_turn > worst->turn / worst->max_turn))
+      worst = {some.empty() ? fastest.body : some[fastest.body], method, turn, max_turn};
+  }
+  return worst;
 }
 
 LinkMotion Simulator::linkMotion(Eigen::Index body) const {

@@ -18,6 +18,20 @@ void AppliedWrenches::addWrenches(const Bodies& bodies, double, Wrenches& wrench
   }
 }
 
+std::shared_ptr<const Effect> AppliedWrenches::restrictedTo(
+    const std::vector<Eigen::Index>& bodies) const {
+  auto restricted = std::make_shared<AppliedWrenches>();
+  // By body and then as held, so that the sum of a body's wrenches keeps its order.
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (const WrenchInput& input : held_) {
+      if (input.body != bodies[k]) continue;
+      restricted->held_.push_back(input);
+      restricted->held_.back().body = static_cast<Eigen::Index>(k);
+    }
+  }
+  return restricted;
+}
+
 std::vector<WrenchInput> AppliedWrenches::update(std::vector<WrenchInput> begun, Tick tick) {
   std::vector<WrenchInput> ended;
   std::sort(begun.begin(), begun.end(), isBefore<WrenchInput>);

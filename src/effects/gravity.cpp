@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "rigid_body_sim/effect.hpp"
 
 namespace rigid_body_sim {
@@ -13,6 +15,14 @@ class UniformGravity : public Effect {
 
   void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
     for (const Eigen::Index i : bodies_) wrenches.f_W.row(i) += bodies.mass(i) * g_W_;
+  }
+
+  std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {
+    std::vector<Eigen::Index> acts_on;
+    for (std::size_t k = 0; k < some.size(); ++k)
+      if (std::find(bodies_.begin(), bodies_.end(), some[k]) != bodies_.end())
+        acts_on.push_back(static_cast<Eigen::Index>(k));
+    return uniformGravity(g_W_, std::move(acts_on));
   }
 
  private:

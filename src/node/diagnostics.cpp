@@ -24,6 +24,8 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("tick", simulator_.tick());
   reportPace(status);
   reportInputs(status);
+  reportAccuracy(status);
+  reportSpin(status);
   reportFrozen(status);
 }
 
@@ -55,6 +57,40 @@ void Diagnostics::reportInputs(diagnostic_updater::DiagnosticStatusWrapper& stat
   if (counts.refusedInAll() > last_refused_)
     status.mergeSummary(DiagnosticStatus::WARN, "inputs refused");
   last_refused_ = counts.refusedInAll();
+}
+
+void Diagnostics::reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const AccuracyState* accuracy = simulator_.accuracy();
+  if (!accuracy) return;
+  const Scene& scene = simulator_.scene();
+  const Bill& bill = accuracy->bill;
+  status.add("accuracy budget", summary(bill.budget));
+  status.add("accuracy plans made", accuracy->bills);
+  for (std::size_t i = 0; i < bill.classes.size(); ++i)
+    status.add("accuracy method " + std::to_string(i + 1), summary(bill.classes[i], scene));
+  const auto add = [&](const std::string& key, const std::optional<LocalError>& sample) {
+    if (sample) status.add(key, toText(*sample, scene));
+  };
+  status.add("local errors measured", accuracy->samples);
+  add("local error latest", accuracy->latest);
+  add("local error worst", accuracy->worst_ever);
+  add("predicted error", accuracy->worst_now);
+  for (const ClassBill& one : bill.classes)
+    if (!one.keeps_budget)
+      status.mergeSummary(DiagnosticStatus::WARN, scene.bodies[one.hardest].name +
+                                                      ": nothing keeps the accuracy budget; " +
+                                                      toText(one.chosen.method) + " is the best");
+  if (!accuracy->keepsBudget())
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the accuracy budget breaks: " + toText(*accuracy->worst_now, scene));
+}
+
+void Diagnostics::reportSpin(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto body = simulator_.overTurnedBody();
+  if (!body) return;
+  status.mergeSummaryf(DiagnosticStatus::WARN, "%s turns by %.3g rad a step, and %s bears %.3g",
+                       simulator_.scene().bodies[body->body].name.c_str(), body->turn,
+                       toText(body->method).c_str(), body->max_turn);
 }
 
 void Diagnostics::reportFrozen(diagnostic_updater::DiagnosticStatusWrapper& status) {

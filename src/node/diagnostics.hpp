@@ -8,8 +8,8 @@
 
 namespace rigid_body_sim {
 
-/// Publishes on /diagnostics once a second of wall time: what is simulated, whether it keeps up,
-/// what became of the inputs, and which bodies are frozen.
+/// Publishes on /diagnostics once a second of wall time: what is simulated, whether it keeps up
+/// and keeps its accuracy, what became of the inputs, and which bodies are frozen.
 class Diagnostics {
  public:
   Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs,
@@ -19,6 +19,8 @@ class Diagnostics {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportInputs(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportSpin(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportFrozen(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const Simulator& simulator_;

@@ -14,6 +14,7 @@ constexpr char kStates[] = "states";               // out
 constexpr char kTf[] = "/tf";                      // out
 constexpr char kClock[] = "/clock";                // out
 constexpr char kImportReport[] = "import_report";  // out
+constexpr char kAccuracyBill[] = "accuracy_bill";  // out
 
 constexpr char kPause[] = "pause";  // service, private
 constexpr char kStep[] = "step";    // service, private

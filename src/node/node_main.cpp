@@ -71,14 +71,16 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   parameters.refuseUnknown();
   requireGoodNames(scene, options.world_frame);
   for (const SceneBody& body : scene.bodies) ROS_INFO("%s", summary(body).c_str());
-  for (const std::string& warning : scene.warnings) ROS_WARN("%s", warning.c_str());
-  ROS_INFO("%s", summary(scene).c_str());
   if (!options.publish_clock && options.real_time_factor != 1)
     ROS_WARN(
         "real_time_factor is not 1 and there is no /clock: the stamps of other nodes and this "
         "simulation's time part; set /use_sim_time");
 
+  if (scene.accuracy)
+    ROS_INFO("choosing what keeps %s, by flying it", summary(*scene.accuracy).c_str());
   SimNode node(nh, private_nh, queue, std::move(scene), options);
+  for (const std::string& warning : node.scene().warnings) ROS_WARN("%s", warning.c_str());
+  ROS_INFO("%s", summary(node.scene()).c_str());
   std::vector<std::string> services;
   for (const char* name :
        {names::kPause, names::kStep, names::kReset, "get_loggers", "set_logger_level"})

@@ -60,6 +60,10 @@ Outputs::Outputs(ros::NodeHandle nh, const Simulator& simulator, const SimTime& 
   std_msgs::String report;
   report.data = simulator.scene().import_report;
   import_report_.publish(report);
+  if (simulator.accuracy()) {
+    accuracy_bill_ = nh_.advertise<std_msgs::String>(names::kAccuracyBill, 1, is_latched);
+    publishBill();
+  }
   static_broadcaster_.sendTransform(toStaticTf(simulator, options.publish_link_frames, stamp()));
 }
 
@@ -76,6 +80,12 @@ void Outputs::serveNewSubscribers() {
   if (connections_.isEmpty()) return;
   if (is_paused_) gate_.drain();
   connections_.callAvailable(ros::WallDuration(0));
+}
+
+void Outputs::publishBill() {
+  std_msgs::String bill;
+  bill.data = toText(simulator_.accuracy()->bill, simulator_.scene());
+  accuracy_bill_.publish(bill);
 }
 
 void Outputs::publish() {

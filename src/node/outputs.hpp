@@ -28,6 +28,9 @@ class Outputs {
   /// The state of the simulator's tick: /clock first, then everything stamped with it.
   void publish();
 
+  /// What the accuracy costs, if the scene asks for one.
+  void publishBill();
+
   /// Whether the state stands still, so that new subscribers are to be told of it.
   void setPaused(bool is_paused) { is_paused_ = is_paused; }
 
@@ -50,6 +53,7 @@ class Outputs {
   ros::Publisher tf_;
   ros::Publisher states_;
   ros::Publisher import_report_;
+  ros::Publisher accuracy_bill_;
   std::vector<ros::Publisher> twists_;  // of each body
   std::vector<ros::Publisher> odoms_;
   SendGate gate_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "node/conversions.hpp"
 #include "node/names.hpp"
@@ -25,7 +26,7 @@ std::int64_t wallPeriod(const Scene& scene, double real_time_factor) {
 SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue,
                  Scene scene, const NodeOptions& options)
     : queue_(queue),
-      simulator_(std::move(scene)),
+      simulator_(std::move(scene), [] { return ros::isShuttingDown() || !ros::ok(); }),
       time_{options.start_time_ns, simulator_.scene().step_ns},
       options_(options),
       pace_(wallPeriod(simulator_.scene(), options.real_time_factor)),
@@ -39,6 +40,7 @@ SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::Callback
 }
 
 void SimNode::run() {
+  tellBill();
   setPaused(paused_);
   pace_.restart(steadyNow());
   while (ros::ok()) {
@@ -60,6 +62,11 @@ void SimNode::runTick() {
   simulator_.step();
   is_published_ = false;
   inputs_.reportExpired();
+  tellFrozen();
+  tellBill();
+}
+
+void SimNode::tellFrozen() {
   const std::vector<FrozenBody>& frozen = simulator_.frozenBodies();
   for (; frozen_told_ < frozen.size(); ++frozen_told_) {
     ROS_ERROR(
@@ -68,6 +75,16 @@ void SimNode::runTick() {
         simulator_.scene().bodies[frozen[frozen_told_].body].name.c_str(),
         static_cast<long>(frozen[frozen_told_].tick));
   }
+}
+
+/// Says what the accuracy costs, at the start and when it was planned anew.
+void SimNode::tellBill() {
+  const AccuracyState* accuracy = simulator_.accuracy();
+  if (!accuracy || accuracy->bills == bills_told_) return;
+  std::istringstream lines(toText(accuracy->bill, simulator_.scene()));
+  for (std::string line; std::getline(lines, line);) ROS_INFO("%s", line.c_str());
+  if (bills_told_ > 0) outputs_.publishBill();
+  bills_told_ = accuracy->bills;
 }
 
 void SimNode::publishTick() {

@@ -22,14 +22,20 @@ namespace rigid_body_sim {
 class SimNode {
  public:
   /// @param nh takes its callbacks from `queue`
+  /// @throws std::invalid_argument as Simulator, also when ROS is shut down meanwhile
   SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue, Scene scene,
           const NodeOptions& options);
 
   /// Until ROS is shut down.
   void run();
 
+  /// With what the simulator has made of it: methods and warnings.
+  const Scene& scene() const { return simulator_.scene(); }
+
  private:
   void runTick();
+  void tellFrozen();
+  void tellBill();
   void publishTick();
   void waitUntilDue();
   void setPaused(bool is_paused);
@@ -50,6 +56,7 @@ class SimNode {
   bool paused_;
   bool is_published_ = false;  // the state of the simulator's tick
   std::size_t frozen_told_ = 0;
+  int bills_told_ = 0;
 };
 
 }  // namespace rigid_body_sim

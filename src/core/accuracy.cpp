@@ -1,0 +1,258 @@
+#include "rigid_body_sim/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "core/accuracy_plan.hpp"
+#include "core/trials.hpp"
+#include "rigid_body_sim/simulator.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+constexpr std::size_t kMostFlown = 256;
+constexpr double kMostTicks = 600'000;
+constexpr double kMostSteps = 6e7;
+constexpr double kMostStepsPerTick = 1000;
+constexpr double kMostSamples = 10'000;
+
+Budget scaled(Budget budget, double factor) {
+  budget.attitude_rad *= factor;
+  budget.position_m *= factor;
+  return budget;
+}
+
+Allowance allowanceOf(const Budget& budget, double tick_s, std::size_t parts, Eigen::Index bodies) {
+  const double ticks = std::max(1.0, std::ceil(budget.over_s / tick_s));
+  const double all = static_cast<double>(parts) * static_cast<double>(bodies);
+  const double flown = std::min(ticks, std::max(1.0, std::floor(kMostTicks / all)));
+  Allowance allowance;
+  allowance.every = static_cast<Tick>(std::ceil(flown / kMostSamples));
+  allowance.ticks = static_cast<Tick>(std::ceil(flown / allowance.every)) * allowance.every;
+  allowance.span = std::max(1.0, ticks / static_cast<double>(allowance.ticks));
+  allowance.steps = std::min(kMostSteps / static_cast<double>(parts),
+                             kMostStepsPerTick * flown * static_cast<double>(bodies));
+  return allowance;
+}
+
+/// What decides a body's price, coarsely: bodies of one kind are taken for alike.
+using Kind = std::tuple<std::vector<std::string>, int, int, int>;
+
+Kind kindOf(const Part& part) {
+  const auto octave = [](double x) {
+    return x > 0 ? std::ilogb(x) : std::numeric_limits<int>::min();
+  };
+  std::vector<std::string> effects;
+  for (const auto& effect : part.effects) effects.push_back(effect->name());
+  const Vector3d I = part.bodies.moments(0);
+  return {effects, octave(fastestOf(part.bodies).rate), octave(I(2) / I(0)),
+          octave((I(1) - I(0)) / I(0)) > -20};
+}
+
+std::vector<Part> partsOf(const Situation& now) {
+  std::vector<Part> parts;
+  for (Eigen::Index i = 0; i < now.bodies.count(); ++i) {
+    auto part = partOf(now, {i});
+    if (!part) return {wholeOf(now)};
+    parts.push_back(std::move(*part));
+  }
+  return parts;
+}
+
+/// Those to fly of parts that are too many, by kind: the fastest ones first.
+std::map<Kind, std::vector<Part>> byKind(std::vector<Part> parts) {
+  std::map<Kind, std::vector<Part>> kinds;
+  for (Part& part : parts) kinds[kindOf(part)].push_back(std::move(part));
+  for (auto& [kind, alike] : kinds)
+    std::stable_sort(alike.begin(), alike.end(), [](const Part& a, const Part& b) {
+      return fastestOf(a.bodies).rate > fastestOf(b.bodies).rate;
+    });
+  return kinds;
+}
+
+/// A bill in the making.
+class Choice {
+ public:
+  Choice(Bill& bill, const Allowance& allowance) : bill_(bill), allowance_(allowance) {
+    bill_.ticks_flown = allowance.ticks;
+  }
+
+  /// Chooses for a part. @returns the class it went to
+  std::size_t add(const Part& part) {
+    auto trials = std::make_unique<Trials>(part, allowance_);
+    const std::optional<Offer> kept = trials->cheapest(bill_.budget);
+    const Offer offer = kept ? *kept : trials->best(bill_.budget);
+    const double share = shareOf(bill_.budget, offer.error, trials->doubt());
+    const std::size_t place = placeOf(offer.method, part.effects.empty());
+    ClassBill& one = bill_.classes[place];
+    const Forecast forecast = trials->forecast(offer);
+    for (const Eigen::Index body : part.indices) {
+      one.bodies.push_back(body);
+      bill_.forecasts[body] = forecast;
+    }
+    one.flown += part.indices.size();
+    bill_.body_steps += trials->bodySteps();
+    if (share < shares_[place]) return place;
+    shares_[place] = share;
+    one.hardest = part.indices.front();
+    one.keeps_budget = kept.has_value();
+    one.chosen = offer;
+    one.doubt = trials->doubt();
+    one.reference = trials->reference();
+    hardest_[place] = std::move(trials);
+    return place;
+  }
+
+  /// A body that is like those of a class.
+  void addUnflown(Eigen::Index body, std::size_t place) {
+    ClassBill& one = bill_.classes[place];
+    one.bodies.push_back(body);
+    bill_.forecasts[body] = bill_.forecasts[one.hardest];
+  }
+
+  double costOf(std::size_t place) const { return bill_.classes[place].chosen.cost; }
+
+  /// Looks for what else there was, for the hardest body of each class.
+  void finish() {
+    for (std::size_t i = 0; i < hardest_.size(); ++i) {
+      if (!hardest_[i]) continue;  // of an earlier bill
+      ClassBill& one = bill_.classes[i];
+      Trials& trials = *hardest_[i];
+      const double before = trials.bodySteps();
+      one.runner_up = trials.cheapest(bill_.budget, one.chosen.method.integrator);
+      one.digit_less = trials.cheapest(scaled(bill_.budget, 10));
+      one.digit_more = trials.cheapest(scaled(bill_.budget, 0.1));
+      bill_.body_steps += trials.bodySteps() - before;
+    }
+    for (ClassBill& one : bill_.classes) std::sort(one.bodies.begin(), one.bodies.end());
+  }
+
+ private:
+  std::size_t placeOf(const Method& method, bool is_free) {
+    std::size_t place = 0;
+    const auto fits = [&](const ClassBill& one) {
+      return one.chosen.method == method && one.is_free == is_free;
+    };
+    while (place < bill_.classes.size() && !fits(bill_.classes[place])) ++place;
+    if (place == bill_.classes.size()) {
+      bill_.classes.emplace_back();
+      bill_.classes.back().chosen.method = method;
+      bill_.classes.back().is_free = is_free;
+    }
+    hardest_.resize(bill_.classes.size());
+    while (shares_.size() < bill_.classes.size()) {
+      const ClassBill& one = bill_.classes[shares_.size()];
+      shares_.push_back(shareOf(bill_.budget, one.chosen.error, one.doubt));
+    }
+    return place;
+  }
+
+  Bill& bill_;
+  Allowance allowance_;
+  std::vector<std::unique_ptr<Trials>> hardest_;  // of each class; null: flown for an earlier bill
+  std::vector<double> shares_;
+};
+
+/// @throws std::invalid_argument naming the body, the best there is and what it leaves, if the bill
+/// does not keep its budget
+void requireKept(const Bill& bill, const Scene& scene) {
+  for (const ClassBill& one : bill.classes) {
+    if (one.keeps_budget) continue;
+    std::ostringstream why;
+    why << "accuracy: " << summary(bill.budget) << " cannot be kept for body '"
+        << scene.bodies[one.hardest].name << "'; the best there is, " << toText(one.chosen.method)
+        << ", leaves " << one.chosen.error.attitude_rad << " rad and "
+        << one.chosen.error.position_m << " m, in doubt by " << one.doubt.attitude_rad
+        << " rad and " << one.doubt.position_m
+        << " m; ask for less, for a shorter span, or take a smaller step_s";
+    throw std::invalid_argument(why.str());
+  }
+}
+
+}  // namespace
+
+double shareOf(const Budget& budget, const Deviation& error, const Deviation& doubt) {
+  const auto share = [](double error, double limit) {
+    return std::isinf(limit) ? 0 : error / limit;
+  };
+  return std::max(share(error.attitude_rad + doubt.attitude_rad, budget.attitude_rad),
+                  share(error.position_m + doubt.position_m, budget.position_m)) /
+         kShareOfBudget;
+}
+
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise,
+              const std::function<bool()>& shall_end) {
+  Bill bill;
+  bill.budget = budget;
+  bill.tick = now.tick;
+  bill.forecasts.resize(static_cast<std::size_t>(now.bodies.count()));
+  std::vector<Part> parts = partsOf(now);
+  const std::size_t flown = std::min(parts.size(), kMostFlown);
+  Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));
+  const auto add = [&](const Part& part) {
+    if (shall_end && shall_end())
+      throw std::invalid_argument("ended while methods were chosen for the accuracy");
+    const std::size_t place = choice.add(part);
+    if (otherwise == WithoutAMethod::kRefuse) requireKept(bill, now.scene);
+    return place;
+  };
+  if (parts.size() <= kMostFlown) {
+    for (const Part& part : parts) add(part);
+  } else {
+    const auto kinds = byKind(std::move(parts));
+    const std::size_t of_each = std::max<std::size_t>(1, kMostFlown / kinds.size());
+    for (const auto& [kind, alike] : kinds) {
+      std::size_t dearest = add(alike[0]);
+      for (std::size_t i = 1; i < alike.size(); ++i) {
+        if (i >= of_each) {
+          choice.addUnflown(alike[i].indices[0], dearest);
+          continue;
+        }
+        const std::size_t place = add(alike[i]);
+        if (choice.costOf(place) > choice.costOf(dearest)) dearest = place;
+      }
+    }
+  }
+  choice.finish();
+  return bill;
+}
+
+Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
+  const auto part = partOf(now, {body});
+  if (!part) return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
+  Bill next = bill;
+  next.tick = now.tick;
+  next.body_steps = 0;
+  for (auto one = next.classes.begin(); one != next.classes.end();) {
+    one->bodies.erase(std::remove(one->bodies.begin(), one->bodies.end(), body), one->bodies.end());
+    one = one->bodies.empty() ? next.classes.erase(one) : one + 1;
+  }
+  Choice choice(next, allowanceOf(bill.budget, now.scene.step_s(), 1, 1));
+  choice.add(*part);
+  choice.finish();
+  return next;
+}
+
+Bill plan(const Scene& scene, const Budget& budget) {
+  Scene bare = scene;
+  bare.accuracy.reset();
+  bare.methods = {};
+  bare.integrator = "exact";
+  bare.substeps = 1;
+  const Simulator simulator(bare);
+  return planFrom({simulator.scene(), simulator.bodies(), {}, 0}, budget, WithoutAMethod::kRefuse);
+}
+
+std::vector<MethodOfBodies> methodsOf(const Bill& bill) {
+  std::vector<MethodOfBodies> methods;
+  for (const ClassBill& one : bill.classes) methods.push_back({one.bodies, one.chosen.method});
+  return methods;
+}
+
+}  // namespace rigid_body_sim

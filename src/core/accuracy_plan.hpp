@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "core/part.hpp"
+#include "rigid_body_sim/accuracy.hpp"
+
+namespace rigid_body_sim {
+
+/// What becomes of a plan when nothing keeps the budget for a body.
+enum class WithoutAMethod { kRefuse, kTakeTheBest };
+
+/// As plan() of a scene, in the middle of its simulation and under the wrenches that are held now,
+/// as if for ever.
+/// @param shall_end is asked before each body; may be empty
+/// @throws std::invalid_argument as plan(), or if it shall end
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise,
+              const std::function<bool()>& shall_end = {});
+
+/// The bill with a new choice for one body, or for all if effects couple them; the best there is
+/// where nothing keeps the budget.
+Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body);
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,57 @@
+#include "core/part.hpp"
+
+#include <numeric>
+#include <utility>
+
+namespace rigid_body_sim {
+
+std::optional<Part> partOf(const Situation& now, const std::vector<Eigen::Index>& bodies) {
+  auto effects = restrictedTo(now.scene.effects, bodies);
+  if (!effects) return std::nullopt;
+  if (auto held = now.held.restrictedTo(bodies); held->bodyCount() > 0)
+    effects->push_back(std::move(held));
+  return Part{bodies,
+              rowsOf(now.bodies, bodies),
+              std::move(*effects),
+              now.scene.gyroscopic,
+              now.scene.step_s(),
+              now.tick};
+}
+
+Part wholeOf(const Situation& now) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(now.bodies.count()));
+  std::iota(all.begin(), all.end(), Eigen::Index(0));
+  EffectList effects = now.scene.effects;
+  if (auto held = now.held.restrictedTo(all); held->bodyCount() > 0)
+    effects.push_back(std::move(held));
+  return {std::move(all),       now.bodies,         std::move(effects),
+          now.scene.gyroscopic, now.scene.step_s(), now.tick};
+}
+
+Flight::Flight(const Part& part, const Method& method)
+    : group_(method, part.gyroscopic, part.effects),
+      bodies_(part.bodies),
+      tick_(part.tick),
+      tick_s_(part.tick_s) {}
+
+void Flight::step() {
+  group_.step(bodies_, static_cast<double>(tick_) * tick_s_, tick_s_);
+  ++tick_;
+}
+
+Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every) {
+  Flight flight(part, method);
+  Trajectory trajectory = {every, {flight.bodies()}};
+  for (Tick k = 1; k <= ticks; ++k) {
+    flight.step();
+    if (k % every == 0) trajectory.samples.push_back(flight.bodies());
+  }
+  return trajectory;
+}
+
+TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every) {
+  return truest([&](const Method& method) { return fly(part, method, ticks, every); },
+                part.effects.empty());
+}
+
+}  // namespace rigid_body_sim

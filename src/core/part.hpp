@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/group.hpp"
+#include "rigid_body_sim/trajectory.hpp"
+
+namespace rigid_body_sim {
+
+/// A scene in the middle of its simulation.
+struct Situation {
+  const Scene& scene;
+  const Bodies& bodies;
+  const AppliedWrenches& held;
+  Tick tick;
+};
+
+/// Some of a scene's bodies by themselves, with all that acts on them: what can be flown on from
+/// here.
+struct Part {
+  std::vector<Eigen::Index> indices;  ///< of the bodies in the scene
+  Bodies bodies;
+  EffectList effects;  ///< held wrenches among them
+  Gyroscopic gyroscopic;
+  double tick_s;
+  Tick tick;
+};
+
+/// @returns nothing if an effect cannot be divided
+std::optional<Part> partOf(const Situation& now, const std::vector<Eigen::Index>& bodies);
+
+/// The whole scene as one part.
+Part wholeOf(const Situation& now);
+
+/// The part in flight.
+class Flight {
+ public:
+  Flight(const Part& part, const Method& method);
+  void step();
+  const Bodies& bodies() const { return bodies_; }
+  Tick tick() const { return tick_; }
+
+ private:
+  Group group_;
+  Bodies bodies_;
+  Tick tick_;
+  double tick_s_;
+};
+
+Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every);
+
+/// As flyTruly() of a scene.
+TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every);
+
+/// The truest of what `fly` gives; `is_free` if nothing acts on the bodies.
+TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free);
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/part.hpp"
+#include "rigid_body_sim/accuracy.hpp"
+
+namespace rigid_body_sim {
+
+/// How long and how much the trials of a part may fly.
+struct Allowance {
+  Tick ticks = 0;    ///< of a flight
+  Tick every = 1;    ///< sample
+  double span = 1;   ///< the budget's ticks by those flown; more than one: extrapolated
+  double steps = 0;  ///< of all flights together, times bodies
+};
+
+/// Trial flights of a part of a scene by the methods of the registry, against the truth; none is
+/// made twice.
+class Trials {
+ public:
+  Trials(const Part& part, const Allowance& allowance);
+
+  /// The cheapest that stays within `budget`, but for those of the integrator `except`; nothing if
+  /// there is none within the allowance.
+  std::optional<Offer> cheapest(const Budget& budget, const std::string& except = {});
+
+  /// Of all flown so far the one that leaves the least of `budget`.
+  Offer best(const Budget& budget) const;
+
+  /// Measures the local errors that the method makes.
+  Forecast forecast(const Offer& offer) const;
+
+  /// Over the whole span.
+  Deviation doubt() const;
+  const std::string& reference() const { return truth_.how; }
+  double bodySteps() const { return body_steps_; }
+  const Part& part() const { return part_; }
+
+ private:
+  struct Rung;
+
+  Deviation errorOf(const Method& method);
+  double costOf(const Method& method) const;
+  double stepsOf(const Method& method) const;
+  std::vector<Rung> rungs(const std::string& except) const;
+
+  Part part_;
+  Allowance allowance_;
+  TrueTrajectory truth_;
+  double rate_ = 0;  // the largest |w| on the way [rad/s]
+  bool is_torque_free_ = true;
+  bool has_drag_ = false;
+  double effects_cost_ = 0;  // of an evaluation, a body
+  double body_steps_ = 0;
+  std::map<std::pair<std::string, int>, Deviation> flown_;
+};
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,261 @@
+#include "core/group.hpp"
+
+#include <cstdlib>
+
+#include "accuracy_scenes.hpp"
+
+// Every allocation of the process: Eigen's do not use operator new. Sanitizers bring a malloc of
+// their own.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_OWN_MALLOC
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_OWN_MALLOC
+#endif
+#if defined(__GLIBC__) && !defined(HAS_OWN_MALLOC)
+#define COUNTS_ALLOCATIONS
+static long allocation_count = 0;
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) noexcept {
+  ++allocation_count;
+  return __libc_malloc(size);
+}
+#endif
+
+namespace rigid_body_sim {
+namespace {
+
+WrenchInput push(Eigen::Index body, const Wrench& wrench, Tick start = 0, Tick ticks = 0) {
+  WrenchInput input;
+  input.body = body;
+  input.applied = {Axes::kBody, wrench, {0.1, -0.2, 0.3}};
+  input.start = start;
+  input.ticks = ticks;
+  return input;
+}
+
+/// Six bodies: the even ones with thrusters, all but the first under gravity.
+Scene sixBodies() {
+  Scene scene = swarmScene(6).scene;
+  scene.effects.push_back(uniformGravity({0.1, 0.2, -9.8}, {1, 2, 3, 4, 5}));
+  return scene;
+}
+
+Scene oneOf(const Scene& scene, Eigen::Index body) {
+  Scene alone = scene;
+  alone.methods.clear();
+  alone.bodies = {scene.bodies[body]};
+  alone.effects = *restrictedTo(scene.effects, {body});
+  return alone;
+}
+
+/// Pushed from tick 3 to 8.
+void pushAndRun(Simulator& simulator, Eigen::Index body) {
+  simulator.apply(push(body, {{1, 2, -1}, {0.3, -0.1, 0.2}}, 3, 5));
+  for (int k = 0; k < 40; ++k) simulator.step();
+}
+
+TEST(Group, MovesItsBodiesAsTheyWouldAloneToTheBit) {
+  for (const IntegratorRow& row : integrators()) {
+    // The adaptive method's steps are those that its hardest body wants.
+    if (row.order == 0) continue;
+    Scene scene = sixBodies();
+    scene.methods = {{{0, 3, 5}, {row.name, 2}}, {{4, 1}, {row.name, 1}}, {{2}, {"exact", 3}}};
+    Simulator together(scene);
+    pushAndRun(together, 4);
+    for (const MethodOfBodies& part : scene.methods) {
+      for (const Eigen::Index body : part.bodies) {
+        Scene alone = oneOf(scene, body);
+        alone.integrator = part.method.integrator;
+        alone.substeps = part.method.substeps;
+        Simulator simulator(alone);
+        if (body == 4)
+          pushAndRun(simulator, 0);
+        else
+          for (int k = 0; k < 40; ++k) simulator.step();
+        EXPECT_TRUE(sameBits(together.state(body), simulator.state(0))) << row.name << " " << body;
+      }
+    }
+  }
+}
+
+TEST(Group, OfAllBodiesIsWhatTheSceneWithoutMethodsDoes) {
+  Scene scene = sixBodies();
+  scene.integrator = "rk4";
+  scene.substeps = 3;
+  Simulator plain(scene);
+  scene.integrator = "split2";
+  scene.methods = {{{0, 1, 2, 3, 4, 5}, {"rk4", 3}}};
+  Simulator one_group(scene);
+  pushAndRun(plain, 2);
+  pushAndRun(one_group, 2);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    EXPECT_TRUE(sameBits(plain.state(i), one_group.state(i))) << i;
+}
+
+TEST(Group, GoesBackToTheStartWithTheScene) {
+  Scene scene = sixBodies();
+  scene.methods = {{{0, 3, 5}, {"exact", 2}}, {{4, 1, 2}, {"rk8"}}};
+  Simulator simulator(scene), fresh(scene);
+  pushAndRun(simulator, 4);
+  simulator.apply(push(1, {{1, 2, -1}, {0.3, -0.1, 0.2}}));
+  simulator.step();
+  simulator.reset();
+  // A run after a reset is at another tick: only free bodies and constant effects do not see it.
+  for (int k = 0; k < 20; ++k) simulator.step(), fresh.step();
+  for (Eigen::Index i = 0; i < 6; ++i)
+    EXPECT_TRUE(sameBits(simulator.state(i), fresh.state(i))) << i;
+}
+
+#ifdef COUNTS_ALLOCATIONS
+TEST(Group, AllocatesNothingInASteadyTick) {
+  for (const bool is_divided : {false, true}) {
+    Scene scene = sixBodies();
+    if (is_divided) scene.methods = {{{0, 3, 5}, {"exact", 2}}, {{4, 1, 2}, {"rk4"}}};
+    Simulator simulator(scene);
+    simulator.apply(push(4, {{1, 2, -1}, {0.3, -0.1, 0.2}}));
+    for (int k = 0; k < 3; ++k) simulator.step();
+    const long before = allocation_count;
+    for (int k = 0; k < 50; ++k) simulator.step();
+    EXPECT_EQ(allocation_count, before) << is_divided;
+  }
+}
+#endif
+
+TEST(Group, TakesEachBodyOnce) {
+  Scene scene = sixBodies();
+  scene.methods = {{{0, 1, 2}, {}}, {{2, 3, 4, 5}, {}}};
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"'body_2' has 2 methods"}));
+  scene.methods = {{{0, 1, 2}, {}}, {{4, 5}, {}}};
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"'body_3' has 0 methods"}));
+  scene.methods = {{{0, 1, 2}, {}}, {{3, 4, 5, 6}, {}}};
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"body 6", "not there"}));
+  scene.methods = {{{0, 1, 2, 3, 4, 5}, {}}, {{}, {}}};
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"no body"}));
+}
+
+// ---- Methods that do not suit
+
+Scene dragged() { return tenScenes(1)[3].scene; }
+
+TEST(Method, WithStepsBackIsRefusedUnderDrag) {
+  for (const IntegratorRow& row : integrators()) {
+    Scene scene = dragged();
+    scene.integrator = row.name;
+    if (row.order > 0 && row.order_under_drag == 0)
+      EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
+                           {"'" + row.name + "'", "'law'", "velocities", "rk4 or rk8"}));
+    else
+      EXPECT_NO_THROW(Simulator{scene}) << row.name;
+  }
+}
+
+TEST(Method, ThatLosesOrdersUnderDragGetsAWarning) {
+  for (const IntegratorRow& row : integrators()) {
+    if (row.order_under_drag == 0) continue;
+    Scene scene = dragged();
+    scene.integrator = row.name;
+    const std::vector<std::string> warnings = Simulator(scene).scene().warnings;
+    if (row.order_under_drag == row.order) {
+      EXPECT_TRUE(warnings.empty()) << row.name;
+    } else {
+      ASSERT_EQ(warnings.size(), 1u) << row.name;
+      EXPECT_TRUE(
+          contains(warnings[0], {"law depends on velocities", row.name + " is of order 1"}));
+    }
+    scene.effects.clear();
+    EXPECT_TRUE(Simulator(scene).scene().warnings.empty()) << row.name;
+  }
+}
+
+TEST(Method, IsRefusedForABodyThatTurnsTooFarInAStep) {
+  SceneBody fast = bodyOf("top", {1, 2, 2.5}, {30, -80, 50});  // 99 rad/s, 1.98 rad a tick
+  Scene scene = sceneOf(fast, "rk4");
+  scene.bodies.push_back(bodyOf("slow", {1, 2, 2.5}, {1, 1, 1}));
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
+                       {"'top'", "98.9949 rad/s", "1.9799 rad a step", "'rk4' bears 1",
+                        "2 substeps or more", "exact"}));
+  scene.substeps = 2;
+  EXPECT_NO_THROW(Simulator{scene});
+  scene.methods = {{{0}, {"exact"}}, {{1}, {"rk4"}}};
+  EXPECT_NO_THROW(Simulator{scene});
+}
+
+TEST(Method, ThatInputsMadeTooFastIsFound) {
+  Scene scene = sceneOf(bodyOf("slow", {1, 2, 2.5}, {1, 1, 1}), "exact");
+  scene.bodies.push_back(bodyOf("top", {1, 2, 2.5}, {1, 1, 1}));
+  scene.methods = {{{0}, {"exact"}}, {{1}, {"rk4"}}};
+  Simulator simulator(scene);
+  simulator.step();
+  EXPECT_FALSE(simulator.overTurnedBody());
+  ImpulseInput knock;
+  knock.body = 1;
+  knock.applied.wrench.t_Q_F << 0, 0, 250;
+  simulator.apply(knock);
+  simulator.step();
+  const auto body = simulator.overTurnedBody();
+  ASSERT_TRUE(body);
+  EXPECT_EQ(body->body, 1);
+  EXPECT_EQ(toText(body->method), "rk4");
+  EXPECT_GT(body->turn, 1);
+  EXPECT_EQ(body->max_turn, 1);
+}
+
+TEST(Method, TakesACountOfSubstepsInItsBounds) {
+  for (const int substeps : {0, -1, 10'001}) {
+    Scene scene = sixBodies();
+    scene.substeps = substeps;
+    EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
+                         {"substeps", "1 to 10000", std::to_string(substeps)}));
+  }
+}
+
+// ---- Effects in parts
+
+TEST(Restricted, GravityActsOnTheSameBodiesAtTheirNewPlaces) {
+  const auto gravity = uniformGravity({0, 0, -2}, {1, 4, 2});
+  const auto part = gravity->restrictedTo({4, 0, 1});
+  EXPECT_EQ(part->bodyCount(), 2u);
+  Bodies bodies(3);
+  bodies.mass << 3, 5, 7;
+  Wrenches wrenches = {Column3::Zero(3, 3), Column3::Zero(3, 3)};
+  part->addWrenches(bodies, 0, wrenches);
+  EXPECT_EQ(wrenches.f_W.col(2), Eigen::Vector3d(-6, 0, -14));
+  EXPECT_EQ(gravity->restrictedTo({0, 3})->bodyCount(), 0u);
+}
+
+TEST(Restricted, HeldWrenchesFollowTheirBodies) {
+  AppliedWrenches held;
+  held.update({push(5, {{1, 0, 0}, {0, 0, 0}}), push(2, {{0, 1, 0}, {0, 0, 0}})}, 0);
+  const auto part = held.restrictedTo({5, 3});
+  EXPECT_EQ(part->bodyCount(), 1u);
+  Bodies bodies(2);
+  for (Eigen::Index i : {0, 1}) bodies.setState(i, BodyState());
+  Wrenches wrenches = {Column3::Zero(2, 3), Column3::Zero(2, 3)};
+  part->addWrenches(bodies, 0, wrenches);
+  EXPECT_EQ(wrenches.f_W.row(0), Eigen::RowVector3d(1, 0, 0));
+  EXPECT_EQ(wrenches.f_W.row(1), Eigen::RowVector3d(0, 0, 0));
+}
+
+/// Cannot be divided.
+class Coupling : public Effect {
+ public:
+  std::string name() const override { return "coupling"; }
+  std::size_t bodyCount() const override { return 6; }
+  void addWrenches(const Bodies&, double, Wrenches&) const override {}
+};
+
+TEST(Restricted, AnEffectThatCouplesBodiesTakesOneMethodForAll) {
+  Scene scene = sixBodies();
+  scene.effects.push_back(std::make_shared<Coupling>());
+  EXPECT_FALSE(restrictedTo(scene.effects, {0}));
+  scene.methods = {{{0, 1, 2}, {}}, {{3, 4, 5}, {"rk4"}}};
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"couples", "same method"}));
+  scene.methods = {{{0, 1, 2, 3, 4, 5}, {"rk4"}}};
+  EXPECT_NO_THROW(Simulator{scene});
+}
+
+}  // namespace
+}  // namespace rigid_body_sim
