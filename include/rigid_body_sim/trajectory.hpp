@@ -14,6 +14,9 @@ struct Trajectory {
   std::vector<Bodies> samples;
 };
 
+/// The scene with one method for all bodies, instead of what it says of methods or accuracy.
+Scene withMethod(Scene scene, const Method& method);
+
 /// Flies a scene from its start, without inputs, by one method for all bodies.
 /// @param ticks a multiple of `every`
 /// @throws std::invalid_argument as Simulator.

@@ -28,15 +28,19 @@ double size(const Deviation& doubt) { return larger(doubt.attitude_rad, doubt.po
 
 }  // namespace
 
-Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every) {
-  if (every <= 0 || ticks < 0 || ticks % every != 0)
-    throw std::invalid_argument("the ticks of a trajectory must be a multiple of its samples'");
+Scene withMethod(Scene scene, const Method& method) {
   scene.integrator = method.integrator;
   scene.substeps = method.substeps;
   scene.tolerance = method.tolerance;
   scene.methods.clear();
   scene.accuracy.reset();
-  Simulator simulator(std::move(scene));
+  return scene;
+}
+
+Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every) {
+  if (every <= 0 || ticks < 0 || ticks % every != 0)
+    throw std::invalid_argument("the ticks of a trajectory must be a multiple of its samples'");
+  Simulator simulator(withMethod(std::move(scene), method));
   Trajectory trajectory = {every, {simulator.bodies()}};
   for (Tick tick = 1; tick <= ticks; ++tick) {
     simulator.step();

@@ -66,13 +66,6 @@ Errors worse(const Errors& a, const Errors& b) {
           larger(a.momentum, b.momentum)};
 }
 
-Scene withMethod(Scene scene, const Method& method) {
-  scene.integrator = method.integrator;
-  scene.substeps = method.substeps;
-  scene.tolerance = method.tolerance;
-  return scene;
-}
-
 Eigen::Index shownBody(const Scene& scene) {
   const auto rotates = [](const SceneBody& body) { return !body.is_point_mass; };
   const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), rotates);

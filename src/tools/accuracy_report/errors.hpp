@@ -33,9 +33,6 @@ struct FlightErrors {
   double wall_s = 0;  ///< that the flight took, comparisons included
 };
 
-/// The scene, flown by one method for all bodies.
-Scene withMethod(Scene scene, const Method& method);
-
 /// The first body that rotates, or the first one.
 Eigen::Index shownBody(const Scene& scene);
 
