@@ -199,9 +199,10 @@ TEST_F(Inputs, AWrenchHeldThroughTheThrusterFollowsTheEquationsOfMotion) {
   const Vector3d I_B = (X_LB.linear().transpose() * body.I_BBcm_L * X_LB.linear()).diagonal();
   const Momentum start = momentumAtStart(body);
   const Quaterniond q_WB(Matrix3d(body.X_WL.linear() * X_LB.linear()));
-  const BodyState end = reference::fly({body.X_WL * body.p_LBcm, q_WB, start.P_WB, start.L_WBcm_W},
-                                       body.mass, I_B, law, 25 * kStep_s)
-                            .end;
+  const BodyState end =
+      reference::fly(BodyState{body.X_WL * body.p_LBcm, q_WB, start.P_WB, start.L_WBcm_W},
+                     body.mass, I_B, law, 25 * kStep_s)
+          .end;
   const Momentum momentum = momentumOf(body, after);
   const Motion motion = motionOf(after, "probe");
   EXPECT_LE((momentum.P_WB - end.P_WB).norm(), 5e-4);
