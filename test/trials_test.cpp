@@ -18,7 +18,7 @@ TEST(Trials, ExtrapolateErrorsAsTheyGrew) {
     Trials half(partOf(one, simulator), {1500, 1, 2, kInf}),
         whole(partOf(one, simulator), {3000, 1, 1, kInf});
     for (const double budget : {1e-2, 1e-4}) {
-      const auto offer = half.cheapest(one.budget(budget));
+      const auto offer = half.choose(one.budget(budget));
       ASSERT_TRUE(offer) << one.name;
       const auto error = [&](const Deviation& deviation) {
         return one.is_of_positions ? deviation.position_m : deviation.attitude_rad;
@@ -37,8 +37,8 @@ TEST(Trials, EndWithTheirAllowance) {
   Trials rich(partOf(one, simulator), {500, 1, 1, 1e9}),
       poor(partOf(one, simulator), {500, 1, 1, 17'000});
   const Budget budget = one.budget(1e-9);
-  ASSERT_TRUE(rich.cheapest(budget));
-  EXPECT_FALSE(poor.cheapest(budget));
+  ASSERT_TRUE(rich.choose(budget));
+  EXPECT_FALSE(poor.choose(budget));
   EXPECT_LE(poor.bodySteps(), 17'000);
   EXPECT_GT(rich.bodySteps(), 17'000);
 }
@@ -48,7 +48,7 @@ TEST(Trials, OfABudgetBelowTheDoubtFindNothingButTheBest) {
   const Simulator simulator(one.scene);
   Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
   const Budget budget = one.budget(1e-17);
-  EXPECT_FALSE(trials.cheapest(budget));
+  EXPECT_FALSE(trials.choose(budget));
   const Offer best = trials.best(budget);
   EXPECT_GT(best.cost, 0);
   EXPECT_LE(best.error.attitude_rad, 1e-10);  // some high order's
@@ -59,7 +59,7 @@ TEST(Trials, LeaveOutWhatDragForbids) {
   const Simulator simulator(one.scene);
   Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
   for (const double budget : {1e-2, 1e-4, 1e-6, 1e-8}) {
-    const auto offer = trials.cheapest(one.budget(budget));
+    const auto offer = trials.choose(one.budget(budget));
     ASSERT_TRUE(offer);
     EXPECT_GT(integratorNamed(offer->method.integrator).order_under_drag, 0);
   }
@@ -69,7 +69,7 @@ TEST(Trials, ForecastAnAmplificationThatGivesTheErrorBack) {
   const TrueScene one = tenScenes(1)[1];
   const Simulator simulator(one.scene);
   Trials trials(partOf(one, simulator), {3000, 1, 1, 1e9});
-  const auto offer = trials.cheapest(one.budget(1e-4));
+  const auto offer = trials.choose(one.budget(1e-4));
   ASSERT_TRUE(offer);
   const Forecast forecast = trials.forecast(*offer);
   EXPECT_GE(forecast.error.attitude_rad, offer->error.attitude_rad);

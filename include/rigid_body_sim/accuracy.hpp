@@ -64,9 +64,9 @@ constexpr double kAlarm = 1.25;
 /// up to 1.
 double shareOf(const Budget& budget, const Deviation& error, const Deviation& doubt);
 
-/// Chooses for every body the cheapest method that keeps the budget, by flying it with the others
-/// against flyTruly(), and groups bodies of one choice into classes. Depends on nothing but its
-/// arguments; no clock is asked.
+/// Chooses for every body the cheapest method that keeps the budget, or one that leaves less for at
+/// most a quarter more, by flying it with the others against flyTruly(), and groups bodies of one
+/// choice into classes. Depends on nothing but its arguments; no clock is asked.
 ///
 /// Bounded: at most 256 bodies are flown (of more, the fastest of those alike), over at most
 /// 600,000 ticks in all, with at most 6e7 steps in all and 1000 a tick; a step takes some 0.1 to 1

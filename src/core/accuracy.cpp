@@ -86,7 +86,7 @@ class Choice {
   /// Chooses for a part. @returns the class it went to
   std::size_t add(const Part& part) {
     auto trials = std::make_unique<Trials>(part, allowance_);
-    const std::optional<Offer> kept = trials->cheapest(bill_.budget);
+    const std::optional<Offer> kept = trials->choose(bill_.budget);
     const Offer offer = kept ? *kept : trials->best(bill_.budget);
     const double share = shareOf(bill_.budget, offer.error, trials->doubt());
     const std::size_t place = placeOf(offer.method, part.effects.empty());
@@ -125,9 +125,9 @@ class Choice {
       ClassBill& one = bill_.classes[i];
       Trials& trials = *hardest_[i];
       const double before = trials.bodySteps();
-      one.runner_up = trials.cheapest(bill_.budget, one.chosen.method.integrator);
-      one.digit_less = trials.cheapest(scaled(bill_.budget, 10));
-      one.digit_more = trials.cheapest(scaled(bill_.budget, 0.1));
+      one.runner_up = trials.choose(bill_.budget, one.chosen.method.integrator);
+      one.digit_less = trials.choose(scaled(bill_.budget, 10));
+      one.digit_more = trials.choose(scaled(bill_.budget, 0.1));
       bill_.body_steps += trials.bodySteps() - before;
     }
     for (ClassBill& one : bill_.classes) std::sort(one.bodies.begin(), one.bodies.end());

@@ -17,26 +17,29 @@ std::string namesOf(const std::vector<Eigen::Index>& bodies, const Scene& scene)
   return names;
 }
 
-std::string toText(const Offer& offer) {
+/// What is measured and what the reference is in doubt by go together.
+std::string toText(const Offer& offer, const Deviation& doubt) {
   std::ostringstream text;
   text.precision(2);
-  text << toText(offer.method) << " leaves " << offer.error.attitude_rad << " rad, "
-       << offer.error.position_m << " m, at ";
+  text << toText(offer.method) << " leaves at most "
+       << offer.error.attitude_rad + doubt.attitude_rad << " rad, "
+       << offer.error.position_m + doubt.position_m << " m, at ";
   text.precision(3);
   text << offer.cost << " semi_implicit steps a tick";
   return text.str();
 }
 
 /// Another offer beside the chosen one.
-std::string comparison(const std::optional<Offer>& offer, const Offer& chosen,
+std::string comparison(const std::optional<Offer>& offer, const ClassBill& one,
                        const std::string& none) {
   if (!offer) return none;
+  const Offer& chosen = one.chosen;
   std::ostringstream text;
   text.precision(3);
   if (offer->method == chosen.method)
     text << "the same";
   else
-    text << toText(*offer) << ", " << offer->cost / chosen.cost << " times the price";
+    text << toText(*offer, one.doubt) << ", " << offer->cost / chosen.cost << " times the price";
   return text.str();
 }
 
@@ -61,15 +64,15 @@ std::string toText(const Bill& bill, const Scene& scene) {
   text.precision(3);
   text << "accuracy: " << summary(bill.budget) << ", from tick " << bill.tick << "\n";
   for (const ClassBill& one : bill.classes) {
-    text << "  " << namesOf(one.bodies, scene) << ": " << toText(one.chosen)
+    text << "  " << namesOf(one.bodies, scene) << ": " << toText(one.chosen, one.doubt)
          << (one.keeps_budget ? "" : "; THIS BREAKS THE BUDGET, and there is nothing better")
          << "\n";
     if (one.bodies.size() > 1)
       text << "    (the figures are those of " << scene.bodies[one.hardest].name << "; "
            << one.flown << " of " << one.bodies.size() << " were flown)\n";
-    text << "    runner-up: " << comparison(one.runner_up, one.chosen, "none found") << "\n"
-         << "    one digit less: " << comparison(one.digit_less, one.chosen, "cannot be had")
-         << "\n    one digit more: " << comparison(one.digit_more, one.chosen, "cannot be had")
+    text << "    runner-up: " << comparison(one.runner_up, one, "none found") << "\n"
+         << "    one digit less: " << comparison(one.digit_less, one, "cannot be had")
+         << "\n    one digit more: " << comparison(one.digit_more, one, "cannot be had")
          << "\n    reference: " << one.reference << ", in doubt by " << one.doubt.attitude_rad
          << " rad, " << one.doubt.position_m << " m\n";
   }

@@ -19,6 +19,10 @@ constexpr double kStepsOfReference = 30;
 
 constexpr int kSamplesOfLocalError = 200;
 
+/// What leaves less may cost this much more: a tenth of a microsecond a tick is worth little, and
+/// who asks for a milliradian of a body that nothing turns may push it later.
+constexpr double kLittleMore = 1.25;
+
 /// 1 to 8, then four an octave: finer would not make a cheaper choice by more than a quarter.
 const std::vector<int>& substepCounts() {
   static const std::vector<int> counts = [] {
@@ -178,8 +182,7 @@ std::optional<Offer> Trials::cheapest(const Budget& budget, const std::string& e
     }
     if (!next) return best;
     const Method method = next->method();
-    const bool is_flown = flown_.count({method.integrator, method.substeps}) > 0;
-    if (!is_flown && body_steps_ + stepsOf(method) > allowance_.steps) {
+    if (!isAffordable(method)) {
       next->giveUp();
       continue;
     }
@@ -192,6 +195,27 @@ std::optional<Offer> Trials::cheapest(const Budget& budget, const std::string& e
     next->keeps(share);
     best = Offer{method, error, costOf(method)};
   }
+}
+
+bool Trials::isAffordable(const Method& method) const {
+  return flown_.count({method.integrator, method.substeps}) > 0 ||
+         body_steps_ + stepsOf(method) <= allowance_.steps;
+}
+
+std::optional<Offer> Trials::choose(const Budget& budget, const std::string& except) {
+  std::optional<Offer> chosen = cheapest(budget, except);
+  if (!chosen) return chosen;
+  const double most = kLittleMore * chosen->cost;
+  double least = shareOf(budget, chosen->error, doubt());
+  for (const Rung& rung : rungs(except)) {
+    if (rung.isDone() || costOf(rung.method()) > most || !isAffordable(rung.method())) continue;
+    const Offer offer = {rung.method(), errorOf(rung.method()), costOf(rung.method())};
+    const double share = shareOf(budget, offer.error, doubt());
+    if (share >= least) continue;
+    least = share;
+    chosen = offer;
+  }
+  return chosen;
 }
 
 Offer Trials::best(const Budget& budget) const {

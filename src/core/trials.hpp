@@ -25,9 +25,9 @@ class Trials {
  public:
   Trials(const Part& part, const Allowance& allowance);
 
-  /// The cheapest that stays within `budget`, but for those of the integrator `except`; nothing if
-  /// there is none within the allowance.
-  std::optional<Offer> cheapest(const Budget& budget, const std::string& except = {});
+  /// The cheapest that stays within `budget`, but for those of the integrator `except`, or what
+  /// leaves less for little more; nothing if there is none within the allowance.
+  std::optional<Offer> choose(const Budget& budget, const std::string& except = {});
 
   /// Of all flown so far the one that leaves the least of `budget`.
   Offer best(const Budget& budget) const;
@@ -44,6 +44,8 @@ class Trials {
  private:
   struct Rung;
 
+  std::optional<Offer> cheapest(const Budget& budget, const std::string& except);
+  bool isAffordable(const Method& method) const;
   Deviation errorOf(const Method& method);
   double costOf(const Method& method) const;
   double stepsOf(const Method& method) const;
