@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "accuracy_scenes.hpp"
 
@@ -195,6 +196,24 @@ TEST(Time, DISABLED_OfTheChoiceIsNearlyTheLeast) {
 }
 
 // ---- Bills
+
+TEST(Bill, OfTheReadmeIsThatOfTheThruster) {
+  const std::string readme = readTextFile(PACKAGE_DIR "/README.md");
+  for (const TrueScene& one : tenScenes(1)) {
+    if (one.name != "thruster") continue;
+    const Bill bill = plan(one.scene, one.budget(1e-6));
+    std::istringstream lines(toText(bill, one.scene));
+    std::string line;
+    std::getline(lines, line);  // the budget
+    for (int i = 0; i < 5; ++i) {
+      std::getline(lines, line);
+      // Figures of rounding, of rk8 and of the doubt, may differ by the machine.
+      const bool has_rounding = line.find("e-1") != std::string::npos;
+      const std::string part = line.substr(2, has_rounding ? line.find(" leaves") : line.npos);
+      EXPECT_NE(readme.find(part.substr(0, part.find(", in doubt"))), std::string::npos) << line;
+    }
+  }
+}
 
 TEST(Bill, OfASwarmTakesAFewSecondsAndFliesNoMoreThanItsBound) {
   const TrueScene swarm = swarmScene(200);
