@@ -99,7 +99,7 @@ class Simulator {
   /// accuracy that no method keeps.
   /// @param shall_end is asked now and then while methods are chosen for an accuracy, which may
   /// take seconds; true ends that with an exception
-  explicit Simulator(Scene scene, const std::function<bool()>& shall_end = {});
+  explicit Simulator(Scene scene, std::function<bool()> shall_end = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
@@ -117,7 +117,7 @@ class Simulator {
   void apply(ImpulseInput input);
 
   /// Simulates one tick: latch inputs, give impulses, step, freeze bodies whose state is not
-  /// finite.
+  /// finite. @throws std::invalid_argument only if it shall end while it chooses methods anew.
   void step();
 
   /// Back to the initial state, without inputs and frozen bodies. Takes one tick, so that no time
@@ -161,6 +161,7 @@ class Simulator {
   void freezeNonFinite(const Bodies& before);
 
   Scene scene_;
+  std::function<bool()> shall_end_;
   std::vector<BodyFrame> frames_;
   Bodies initial_;
   Bodies bodies_;

@@ -186,8 +186,7 @@ double shareOf(const Budget& budget, const Deviation& error, const Deviation& do
          kShareOfBudget;
 }
 
-Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise,
-              const std::function<bool()>& shall_end) {
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise) {
   Bill bill;
   bill.budget = budget;
   bill.tick = now.tick;
@@ -196,8 +195,6 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
   const std::size_t flown = std::min(parts.size(), kMostFlown);
   Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));
   const auto add = [&](const Part& part) {
-    if (shall_end && shall_end())
-      throw std::invalid_argument("ended while methods were chosen for the accuracy");
     const std::size_t place = choice.add(part);
     if (otherwise == WithoutAMethod::kRefuse) requireKept(bill, now.scene);
     return place;

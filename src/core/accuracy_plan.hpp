@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "core/part.hpp"
 #include "rigid_body_sim/accuracy.hpp"
 
@@ -12,10 +10,8 @@ enum class WithoutAMethod { kRefuse, kTakeTheBest };
 
 /// As plan() of a scene, in the middle of its simulation and under the wrenches that are held now,
 /// as if for ever.
-/// @param shall_end is asked before each body; may be empty
 /// @throws std::invalid_argument as plan(), or if it shall end
-Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise,
-              const std::function<bool()>& shall_end = {});
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise);
 
 /// The bill with a new choice for one body, or for all if effects couple them; the best there is
 /// where nothing keeps the budget.

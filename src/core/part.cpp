@@ -1,6 +1,7 @@
 #include "core/part.hpp"
 
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace rigid_body_sim {
@@ -15,7 +16,8 @@ std::optional<Part> partOf(const Situation& now, const std::vector<Eigen::Index>
               std::move(*effects),
               now.scene.gyroscopic,
               now.scene.step_s(),
-              now.tick};
+              now.tick,
+              now.shall_end};
 }
 
 Part wholeOf(const Situation& now) {
@@ -24,17 +26,25 @@ Part wholeOf(const Situation& now) {
   EffectList effects = now.scene.effects;
   if (auto held = now.held.restrictedTo(all); held->bodyCount() > 0)
     effects.push_back(std::move(held));
-  return {std::move(all),       now.bodies,         std::move(effects),
-          now.scene.gyroscopic, now.scene.step_s(), now.tick};
+  return {std::move(all),     now.bodies, std::move(effects), now.scene.gyroscopic,
+          now.scene.step_s(), now.tick,   now.shall_end};
 }
 
 Flight::Flight(const Part& part, const Method& method)
     : group_(method, part.gyroscopic, part.effects),
       bodies_(part.bodies),
       tick_(part.tick),
-      tick_s_(part.tick_s) {}
+      tick_s_(part.tick_s),
+      shall_end_(part.shall_end) {}
 
 void Flight::step() {
+  constexpr double kOften = 1000;  // steps of a body: a hundredth of a second, more or less
+  unasked_ += static_cast<double>(group_.method().substeps * bodies_.count());
+  if (unasked_ > kOften && shall_end_) {
+    unasked_ = 0;
+    if (shall_end_())
+      throw std::invalid_argument("ended while methods were chosen for the accuracy");
+  }
   group_.step(bodies_, static_cast<double>(tick_) * tick_s_, tick_s_);
   ++tick_;
 }

@@ -9,12 +9,16 @@
 
 namespace rigid_body_sim {
 
+/// Whether a long search shall end; may be empty.
+using ShallEnd = std::function<bool()>;
+
 /// A scene in the middle of its simulation.
 struct Situation {
   const Scene& scene;
   const Bodies& bodies;
   const AppliedWrenches& held;
   Tick tick;
+  ShallEnd shall_end = {};
 };
 
 /// Some of a scene's bodies by themselves, with all that acts on them: what can be flown on from
@@ -26,6 +30,7 @@ struct Part {
   Gyroscopic gyroscopic;
   double tick_s;
   Tick tick;
+  ShallEnd shall_end = {};
 };
 
 /// @returns nothing if an effect cannot be divided
@@ -38,6 +43,8 @@ Part wholeOf(const Situation& now);
 class Flight {
  public:
   Flight(const Part& part, const Method& method);
+
+  /// @throws std::invalid_argument if it shall end, which is asked now and then
   void step();
   const Bodies& bodies() const { return bodies_; }
   Tick tick() const { return tick_; }
@@ -47,6 +54,8 @@ class Flight {
   Bodies bodies_;
   Tick tick_;
   double tick_s_;
+  ShallEnd shall_end_;
+  double unasked_ = 0;  // steps since it was asked
 };
 
 Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every);

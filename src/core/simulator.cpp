@@ -92,8 +92,8 @@ void requireRigid(const SceneBody& body) {
 
 }  // namespace
 
-Simulator::Simulator(Scene scene, const std::function<bool()>& shall_end)
-    : scene_(std::move(scene)) {
+Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
+    : scene_(std::move(scene)), shall_end_(std::move(shall_end)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
   requireUniqueFrames(scene_);
@@ -103,8 +103,8 @@ Simulator::Simulator(Scene scene, const std::function<bool()>& shall_end)
   for (const SceneBody& body : scene_.bodies) addBody(body);
   bodies_ = before_ = initial_;
   if (scene_.accuracy) {
-    Bill bill = planFrom({scene_, bodies_, *applied_, tick_}, *scene_.accuracy,
-                         WithoutAMethod::kRefuse, shall_end);
+    Bill bill = planFrom({scene_, bodies_, *applied_, tick_, shall_end_}, *scene_.accuracy,
+                         WithoutAMethod::kRefuse);
     scene_.methods = methodsOf(bill);
     watch_ = std::make_unique<AccuracyWatch>(std::move(bill), scene_);
   }
@@ -218,8 +218,8 @@ void Simulator::step() {
 void Simulator::replanIfDue() {
   const std::optional<Eigen::Index> body = watch_->bodyToReplan();
   if (!body) return;
-  watch_->replan(planAgain(watch_->state().bill, {scene_, bodies_, *applied_, tick_}, *body),
-                 *body);
+  const Situation now = {scene_, bodies_, *applied_, tick_, shall_end_};
+  watch_->replan(planAgain(watch_->state().bill, now, *body), *body);
   scene_.methods = methodsOf(watch_->state().bill);
   makeGroups();
 }
