@@ -176,6 +176,69 @@ TEST(AccuracyWatch, KeepsTheBestWhereNothingKeepsTheBudget) {
   EXPECT_TRUE(contains(toText(now.bill, simulator.scene()), {"BREAKS THE BUDGET"}));
 }
 
+/// A body that is free until somebody pushes it, to 1e-4 rad in a minute.
+Scene freeUntilPushed(bool replan) {
+  SceneBody body = genericSceneBody("box");
+  body.w_WB_L << 1, 2, 3;
+  Scene scene = sceneOf(body);
+  scene.accuracy = Budget();
+  scene.accuracy->attitude_rad = 1e-4;
+  scene.accuracy->over_s = 60;
+  scene.accuracy->replan = replan;
+  return scene;
+}
+
+WrenchInput burst(Tick ticks) {
+  WrenchInput input;
+  input.applied = {Axes::kBody, {{0, 0, 0}, {16, -8, 16}}, Vector3d::Zero()};
+  input.start = 203;
+  input.ticks = ticks;
+  return input;
+}
+
+class AfterABurst : public testing::TestWithParam<int> {};
+
+TEST_P(AfterABurst, WhatItIsOffByIsMeasuredAndStaysKnown) {
+  Simulator simulator(freeUntilPushed(false));
+  Scene true_scene = withMethod(freeUntilPushed(false), {"adaptive", 1, 1e-14});
+  Simulator truth(true_scene);
+  for (Simulator* one : {&simulator, &truth}) {
+    one->apply(burst(GetParam()));
+    run(*one, 203);
+  }
+  EXPECT_TRUE(simulator.accuracy()->keepsBudget());
+  double worst = 0;
+  for (int tick = 203; tick < 3000; ++tick) {
+    simulator.step();
+    truth.step();
+    const double error = deviation(simulator.bodies(), truth.bodies(), 0).attitude_rad;
+    worst = std::max(worst, error);
+    ASSERT_TRUE(simulator.accuracy()->spent);
+    // Rounding of the two truths, some kEps a tick that grow with the square of the time.
+    ASSERT_NEAR(simulator.accuracy()->spent->error.attitude_rad, error, 1e-9) << tick;
+  }
+  EXPECT_GT(worst, 1.3e-4) << "this burst should break the budget";
+  ASSERT_TRUE(simulator.accuracy()->broken);
+  EXPECT_FALSE(simulator.accuracy()->keepsBudget());
+  EXPECT_EQ(simulator.accuracy()->broken->since, 203);
+  EXPECT_TRUE(contains(toText(*simulator.accuracy()->broken, simulator.scene()),
+                       {"box: ", "by inputs since tick 203"}));
+  simulator.reset();
+  EXPECT_TRUE(simulator.accuracy()->keepsBudget());
+}
+
+TEST_P(AfterABurst, ANewMethodKeepsTheBudget) {
+  Simulator simulator(freeUntilPushed(true));
+  simulator.apply(burst(GetParam()));
+  run(simulator, 3000);
+  EXPECT_EQ(simulator.accuracy()->bills, 2);
+  ASSERT_TRUE(simulator.accuracy()->spent);
+  EXPECT_LE(simulator.accuracy()->spent->error.attitude_rad, 1e-4);
+  EXPECT_TRUE(simulator.accuracy()->keepsBudget());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTicks, AfterABurst, testing::Values(1, 3, 10, 50));
+
 TEST(AccuracyWatch, ForgetsItsNewPlanWithTheReset) {
   Simulator simulator(pair(true)), fresh(pair(true));
   run(simulator, 10);

@@ -92,10 +92,22 @@ struct LocalError {
   double share = 0;  ///< what share of the budget the prediction takes
 };
 
+/// A body that got inputs the plan did not know, and has been flown a second time by a far better
+/// method since: how far it is off now.
+struct SpentError {
+  Eigen::Index body = 0;
+  Tick since = 0;    ///< the first of these inputs
+  Tick tick = 0;     ///< of the state that was compared
+  Deviation error;   ///< from the second flight
+  double share = 0;  ///< of the budget, with what the plan foresaw until then
+};
+
 /// Whether a running simulation keeps its budget. Bodies are looked at in turn, one tick of one
 /// body at a time: every tick if there are 30 or more, each body every 30 ticks if they are fewer.
-/// Bodies that are coupled are looked at together, every 30 ticks a body. A body that got an
-/// impulse is looked at in that tick, or as soon as those before it have been.
+/// Bodies that are coupled are looked at together, every 30 ticks a body. A body that gets an
+/// impulse or its first wrench is looked at in that tick, or as soon as those before it have been;
+/// and from then on it is flown a second time, which measures what it is off by: up to eight bodies
+/// at once, none that are coupled.
 struct AccuracyState {
   Bill bill;      ///< the latest
   int bills = 1;  ///< how many there were
@@ -104,11 +116,20 @@ struct AccuracyState {
   std::optional<LocalError> worst_now;   ///< of the latest samples of all bodies
   std::optional<LocalError> worst_ever;  ///< since the start or a reset
 
-  bool keepsBudget() const { return !worst_now || worst_now->share <= kAlarm; }
+  std::optional<LocalError> planned_for;  ///< why methods were chosen anew, the last time
+  std::optional<SpentError> spent;        ///< of the followed body that is furthest off now
+  std::optional<SpentError> broken;       ///< when the budget was first seen to be exceeded; stays
+
+  /// Whether the span would end within the budget if it went on as it does now.
+  bool willKeep() const { return !worst_now || worst_now->share <= kAlarm; }
+  bool keepsBudget() const { return !broken && willKeep(); }
 };
 
 /// `rk8 x 2: rocket, probe and 3 more`.
 std::string summary(const ClassBill& one, const Scene& scene);
+
+/// `rocket: 2e-3 rad and 0 m off at tick 460, by inputs since tick 203`.
+std::string toText(const SpentError& spent, const Scene& scene);
 
 /// `rocket: 1e-12 rad and 0 m in tick 60, so 2e-08 rad and 0 m over the span`.
 std::string toText(const LocalError& sample, const Scene& scene);

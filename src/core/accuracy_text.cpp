@@ -59,6 +59,15 @@ std::string toText(const LocalError& sample, const Scene& scene) {
   return text.str();
 }
 
+std::string toText(const SpentError& spent, const Scene& scene) {
+  std::ostringstream text;
+  text.precision(2);
+  text << scene.bodies[spent.body].name << ": " << spent.error.attitude_rad << " rad and "
+       << spent.error.position_m << " m off at tick " << spent.tick << ", by inputs since tick "
+       << spent.since;
+  return text.str();
+}
+
 std::string toText(const Bill& bill, const Scene& scene) {
   std::ostringstream text;
   text.precision(3);

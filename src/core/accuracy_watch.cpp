@@ -32,12 +32,28 @@ void AccuracyWatch::take(Bill bill) {
   state_.bill = std::move(bill);
 }
 
+void AccuracyWatch::impulse(const ImpulseInput& input, const Bodies& before, Tick tick) {
+  follow(input.body, before, tick);
+  copies_.give(input);
+  lookAt(input.body);
+}
+
+void AccuracyWatch::wrench(Eigen::Index body, const Bodies& before, Tick tick) {
+  if (follow(body, before, tick)) lookAt(body);
+}
+
+/// @returns whether it is the body's first input
+bool AccuracyWatch::follow(Eigen::Index body, const Bodies& before, Tick tick) {
+  return !is_coupled_ && copies_.follow(body, before, tick);
+}
+
 void AccuracyWatch::lookAt(Eigen::Index body) {
   if (is_coupled_) body = 0;
   if (std::find(asked_.begin(), asked_.end(), body) == asked_.end()) asked_.push_back(body);
 }
 
 void AccuracyWatch::beginTick(const Situation& now) {
+  copies_.step(now, methods_);
   looked_at_.reset();
   const bool is_asked = !asked_.empty();
   if (is_asked) {
@@ -57,14 +73,38 @@ void AccuracyWatch::beginTick(const Situation& now) {
   note(sampleOf(flight.bodies()));
 }
 
-void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen) {
+void AccuracyWatch::endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen,
+                            Tick tick) {
   ++ticks_;
+  for (const FrozenBody& one : frozen) copies_.forget(one.body);
+  compareCopies(bodies, tick + 1);
   if (!looked_at_) return;
   const bool is_frozen = std::any_of(frozen.begin(), frozen.end(), [&](const FrozenBody& one) {
     return is_coupled_ || one.body == body_;
   });
   if (is_frozen) return forget(body_);
   note(sampleOf(rowsOf(bodies, looked_at_->indices)));
+}
+
+void AccuracyWatch::compareCopies(const Bodies& bodies, Tick tick) {
+  state_.spent.reset();
+  const Budget& budget = state_.bill.budget;
+  const double span = std::ceil(budget.over_s / tick_s_);
+  Bodies copy(1);
+  for (const TrueCopies::Copy& one : copies_.copies()) {
+    copy.setState(0, one.state);
+    SpentError spent = {one.body, one.since, tick, deviation(copy, rowsOf(bodies, {one.body}), 0)};
+    // What was planned until the first input, in proportion to the time.
+    const double until = std::min(1.0, static_cast<double>(one.since - start_) / span);
+    const Deviation& planned = first_.forecasts[one.body].error;
+    const Deviation sum = {spent.error.attitude_rad + until * planned.attitude_rad,
+                           spent.error.position_m + until * planned.position_m};
+    spent.share = kShareOfBudget * shareOf(budget, sum, {});
+    if (!state_.spent || spent.share > state_.spent->share) state_.spent = spent;
+  }
+  if (!state_.broken && state_.spent && state_.spent->share > kAlarm &&
+      static_cast<double>(ticks_) <= span)
+    state_.broken = state_.spent;
 }
 
 LocalError AccuracyWatch::sampleOf(const Bodies& after) const {
@@ -116,7 +156,7 @@ void AccuracyWatch::findWorst() {
 }
 
 std::optional<Eigen::Index> AccuracyWatch::bodyToReplan() const {
-  if (!state_.bill.budget.replan || state_.keepsBudget()) return std::nullopt;
+  if (!state_.bill.budget.replan || state_.willKeep()) return std::nullopt;
   const LocalError* worst = nullptr;
   for (const auto& last : last_)
     if (last && last->share > kAlarm && ticks_ >= next_plan_[last->body] &&
@@ -131,19 +171,22 @@ void AccuracyWatch::replan(Bill bill, Eigen::Index body) {
   next_plan_[body] = ticks_ + std::max<Tick>(1, static_cast<Tick>(pause));
   take(std::move(bill));
   ++state_.bills;
+  state_.planned_for = last_[body];
   forget(body);  // it was of the method before
   lookAt(body);  // to know how the new choice does
 }
 
-bool AccuracyWatch::reset() {
+bool AccuracyWatch::reset(Tick tick) {
   const bool is_another = state_.bills > 1;
   const int bills = state_.bills;
   state_ = AccuracyState();
   state_.bills = is_another ? bills + 1 : bills;
   take(first_);
   ticks_ = 0;
+  start_ = tick;
   next_ = 0;
   asked_.clear();
+  copies_.clear();
   looked_at_.reset();
   std::fill(last_.begin(), last_.end(), std::nullopt);
   std::fill(next_plan_.begin(), next_plan_.end(), 0);

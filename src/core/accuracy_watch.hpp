@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/part.hpp"
+#include "core/true_copies.hpp"
 #include "rigid_body_sim/accuracy.hpp"
 
 namespace rigid_body_sim {
@@ -15,13 +15,16 @@ class AccuracyWatch {
  public:
   AccuracyWatch(Bill bill, const Scene& scene);
 
-  /// An input changed the body at once: it is the next to be looked at.
-  void lookAt(Eigen::Index body);
+  /// An impulse is about to be given.
+  void impulse(const ImpulseInput& input, const Bodies& before, Tick tick);
+
+  /// A wrench is about to act.
+  void wrench(Eigen::Index body, const Bodies& before, Tick tick);
 
   /// A tick begins; impulses have been given.
   void beginTick(const Situation& now);
   /// It has ended; `frozen` are the bodies that do not move.
-  void endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen);
+  void endTick(const Bodies& bodies, const std::vector<FrozenBody>& frozen, Tick tick);
 
   /// The body that a new choice is due for, if any. One that was chosen for anew is not again for a
   /// tenth of the budget's span: nothing may be gained, and flights cost time.
@@ -30,13 +33,16 @@ class AccuracyWatch {
   /// Takes up a new choice for a body.
   void replan(Bill bill, Eigen::Index body);
 
-  /// As at the start. @returns whether the bill is another one now
-  bool reset();
+  /// As at the start, from `tick` on. @returns whether the bill is another one now
+  bool reset(Tick tick);
 
   const AccuracyState& state() const { return state_; }
 
  private:
   void take(Bill bill);
+  void lookAt(Eigen::Index body);
+  bool follow(Eigen::Index body, const Bodies& before, Tick tick);
+  void compareCopies(const Bodies& bodies, Tick tick);
   LocalError sampleOf(const Bodies& after) const;
   Deviation predictedFrom(const Deviation& error, const Deviation& rounding,
                           const Forecast& forecast) const;
@@ -50,13 +56,15 @@ class AccuracyWatch {
   bool is_coupled_;
   Tick apart_;                                   // of samples [ticks]
   Tick ticks_ = 0;                               // since the start or the reset
+  Tick start_ = 0;                               // the tick of that
   Eigen::Index next_ = 0;                        // body whose turn it is
   std::deque<Eigen::Index> asked_;               // bodies to look at before
   Eigen::Index body_ = 0;                        // the one that is looked at
   std::optional<Part> looked_at_;                // at the beginning of this tick
   std::vector<Method> methods_;                  // of each body
   std::vector<std::optional<LocalError>> last_;  // of each body
-  std::vector<Tick> next_plan_;                  // of each body, not before this of ticks_
+  TrueCopies copies_;
+  std::vector<Tick> next_plan_;  // of each body, not before this of ticks_
 };
 
 }  // namespace rigid_body_sim

@@ -21,12 +21,16 @@ Method farBetterThan(const Method& used, const Part& part) {
 
 }  // namespace
 
-Deviation localError(const Part& before, const Bodies& after, const Method& used) {
+Bodies flyTickTruly(const Part& before, const Method& used) {
   Flight flight(before, farBetterThan(used, before));
   flight.step();
+  return flight.bodies();
+}
+
+Deviation localError(const Part& before, const Bodies& after, const Method& used) {
+  const Bodies truth = flyTickTruly(before, used);
   Deviation error;
-  for (Eigen::Index i = 0; i < after.count(); ++i)
-    error = worse(error, deviation(flight.bodies(), after, i));
+  for (Eigen::Index i = 0; i < after.count(); ++i) error = worse(error, deviation(truth, after, i));
   return error;
 }
 

@@ -7,6 +7,9 @@ namespace rigid_body_sim {
 /// Evaluations of the effects that the second flight of a tick takes at most: 64 steps of rk8.
 constexpr int kMostEvaluations = 64 * 12;
 
+/// The part after a tick, by a method far better than the one that is used.
+Bodies flyTickTruly(const Part& before, const Method& used);
+
 /// How far a tick took the bodies from where it should have, at worst: the tick is flown again by a
 /// far better method, from the same state.
 /// @param before at the tick's beginning, with impulses given

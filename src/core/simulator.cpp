@@ -172,6 +172,8 @@ void Simulator::latchInputs() {
 void Simulator::latchWrenches() {
   std::vector<WrenchInput> begun = takeDue(pending_wrenches_, tick_);
   const bool may_change = !begun.empty();
+  if (watch_)
+    for (const WrenchInput& input : begun) watch_->wrench(input.body, bodies_, tick_);
   ended_ = applied_->update(std::move(begun), tick_);
   if (may_change || !ended_.empty())
     for (const auto& group : groups_) group->hold(*applied_);
@@ -181,7 +183,7 @@ void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
   std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
   for (const ImpulseInput& input : impulses) {
     if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
-    if (watch_) watch_->lookAt(input.body);
+    if (watch_) watch_->impulse(input, bodies_, tick_);
     BodyState body = bodies_.state(input.body);
     const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
     body.P_WB += impulse.f_F;
@@ -210,7 +212,7 @@ void Simulator::step() {
   const double start_s = static_cast<double>(tick_) * scene_.step_s();
   for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());
   freezeNonFinite(before_);
-  if (watch_) watch_->endTick(bodies_, frozen_);
+  if (watch_) watch_->endTick(bodies_, frozen_, tick_);
   ++tick_;
   assert(allFinite(bodies_));
 }
@@ -230,7 +232,7 @@ void Simulator::reset() {
   copyState(initial_, bodies_);
   applied_->clear();
   for (const auto& group : groups_) group->hold(*applied_);
-  if (watch_ && watch_->reset()) {
+  if (watch_ && watch_->reset(tick_ + 1)) {
     scene_.methods = methodsOf(watch_->state().bill);
     makeGroups();
   }

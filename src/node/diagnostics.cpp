@@ -75,12 +75,16 @@ void Diagnostics::reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& st
   add("local error latest", accuracy->latest);
   add("local error worst", accuracy->worst_ever);
   add("predicted error", accuracy->worst_now);
+  if (accuracy->spent) status.add("error of inputs", toText(*accuracy->spent, scene));
   for (const ClassBill& one : bill.classes)
     if (!one.keeps_budget)
       status.mergeSummary(DiagnosticStatus::WARN, scene.bodies[one.hardest].name +
                                                       ": nothing keeps the accuracy budget; " +
                                                       toText(one.chosen.method) + " is the best");
-  if (!accuracy->keepsBudget())
+  if (accuracy->broken)
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the accuracy budget is broken: " + toText(*accuracy->broken, scene));
+  if (!accuracy->willKeep())
     status.mergeSummary(DiagnosticStatus::WARN,
                         "the accuracy budget breaks: " + toText(*accuracy->worst_now, scene));
 }

@@ -40,7 +40,7 @@ SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::Callback
 }
 
 void SimNode::run() {
-  tellBill();
+  tellAccuracy();
   setPaused(paused_);
   pace_.restart(steadyNow());
   while (ros::ok()) {
@@ -63,7 +63,7 @@ void SimNode::runTick() {
   is_published_ = false;
   inputs_.reportExpired();
   tellFrozen();
-  tellBill();
+  tellAccuracy();
 }
 
 void SimNode::tellFrozen() {
@@ -77,14 +77,31 @@ void SimNode::tellFrozen() {
   }
 }
 
-/// Says what the accuracy costs, at the start and when it was planned anew.
-void SimNode::tellBill() {
+/// Says what the accuracy costs, at the start and when it was planned anew, and when it is lost.
+void SimNode::tellAccuracy() {
   const AccuracyState* accuracy = simulator_.accuracy();
-  if (!accuracy || accuracy->bills == bills_told_) return;
-  std::istringstream lines(toText(accuracy->bill, simulator_.scene()));
+  if (!accuracy) return;
+  tellBill(*accuracy);
+  const Scene& scene = simulator_.scene();
+  if (!accuracy->willKeep() && !is_breach_told_) {
+    ROS_WARN("the accuracy budget breaks: %s", toText(*accuracy->worst_now, scene).c_str());
+    is_breach_told_ = true;
+  }
+  if (accuracy->broken && !is_loss_told_)
+    ROS_WARN("the accuracy budget is broken: %s", toText(*accuracy->broken, scene).c_str());
+  is_loss_told_ = accuracy->broken.has_value();
+}
+
+void SimNode::tellBill(const AccuracyState& state) {
+  if (state.bills == bills_told_) return;
+  is_breach_told_ = false;
+  if (state.planned_for)
+    ROS_WARN("inputs broke the accuracy budget, methods are chosen anew: %s",
+             toText(*state.planned_for, simulator_.scene()).c_str());
+  std::istringstream lines(toText(state.bill, simulator_.scene()));
   for (std::string line; std::getline(lines, line);) ROS_INFO("%s", line.c_str());
   if (bills_told_ > 0) outputs_.publishBill();
-  bills_told_ = accuracy->bills;
+  bills_told_ = state.bills;
 }
 
 void SimNode::publishTick() {

@@ -35,7 +35,8 @@ class SimNode {
  private:
   void runTick();
   void tellFrozen();
-  void tellBill();
+  void tellAccuracy();
+  void tellBill(const AccuracyState& state);
   void publishTick();
   void waitUntilDue();
   void setPaused(bool is_paused);
@@ -57,6 +58,8 @@ class SimNode {
   bool is_published_ = false;  // the state of the simulator's tick
   std::size_t frozen_told_ = 0;
   int bills_told_ = 0;
+  bool is_breach_told_ = false;  // by the present methods
+  bool is_loss_told_ = false;
 };
 
 }  // namespace rigid_body_sim
