@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrators/orbit.hpp"
 #include "rigid_body_sim/body_state.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/rotation.hpp"
@@ -17,10 +18,12 @@ Vector3d momentumRate(const Vector3d& m_B, const Vector3d& w_B, const Vector3d& 
   return m_B.cross(w_B) + t_B;
 }
 
-/// Ends a step at the attitude q_WB and the momentum m_B. `L_W` is what the world's torques have
-/// summed up to: the shortest turn of the body brings R m onto it. So the angular momentum of free
-/// flight stays the same to the bit, and no error of m gets into it. Without the gyroscopic effect
-/// L follows from the attitude.
+/// Ends a step of `body`, which is at its beginning, at the attitude q_WB and the momentum m_B.
+/// `L_W` is what the world's torques have summed up to: the shortest turn of the body brings R m
+/// onto it. So the angular momentum of free flight stays the same to the bit, and no error of m
+/// gets into it. Where little is left of L, as at the end of a braking, the error of m that is left
+/// of the larger one says nothing of the attitude, and the body is not turned. Without the
+/// gyroscopic effect L follows from the attitude.
 template <Gyroscopic gyroscopic>
 void setRotation(BodyState& body, const Quaterniond& q_WB, const Vector3d& m_B,
                  const Vector3d& L_W) {
@@ -29,12 +32,13 @@ void setRotation(BodyState& body, const Quaterniond& q_WB, const Vector3d& m_B,
     body.L_WBcm_W = body.q_WB * m_B;
     return;
   }
+  const Direction start(body.L_WBcm_W), now(body.q_WB * m_B), wanted(L_W);
   body.L_WBcm_W = L_W;
-  const double size = m_B.norm() * L_W.norm();
-  if (!(size > 0)) return;
-  const Vector3d now_W = body.q_WB * m_B;
-  const Vector3d axis = now_W.cross(L_W);
-  const Quaterniond turn(size + now_W.dot(L_W), axis.x(), axis.y(), axis.z());
+  if (now.G == 0 || !(wanted.G > 0.1 * start.G)) return;
+  const double cosine = now.m.dot(wanted.m);
+  if (!(cosine > 0.9999)) return;
+  const Vector3d axis = now.m.cross(wanted.m);
+  const Quaterniond turn(1 + cosine, axis.x(), axis.y(), axis.z());
   body.q_WB = (turn * body.q_WB).normalized();
 }
 

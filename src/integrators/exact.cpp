@@ -164,10 +164,17 @@ class Exact : public Integrator {
   }
 
   /// R m and L wander apart by roundings; the shortest turn of the body puts them together again.
+  /// Where they are further apart than a walk of roundings can be, L has shrunk to what they were
+  /// of a larger one: then it is m that is made anew, and the body does not turn.
   static void align(Spin& spin) {
     const Vector3d L_W = spin.q_WB * spin.m_B;
     const double size2 = spin.L_W.squaredNorm();
-    if ((L_W - spin.L_W).squaredNorm() <= 1e-28 * size2) return;
+    const double off2 = (L_W - spin.L_W).squaredNorm();
+    if (off2 <= 1e-28 * size2) return;
+    if (off2 > 1e-24 * size2) {
+      spin.m_B = momentumInBody(spin.q_WB, spin.L_W);
+      return;
+    }
     const Vector3d half = (0.5 / size2) * L_W.cross(spin.L_W);
     spin.q_WB = renormalized(Quaterniond(1, half.x(), half.y(), half.z()) * spin.q_WB);
   }

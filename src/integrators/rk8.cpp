@@ -228,35 +228,48 @@ class Adaptive : public Integrator {
   explicit Adaptive(double tolerance) : tolerance_(tolerance) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    const double least = kLeast * std::abs(h);
     double done = 0;
     double next = firstStep(bodies, h);
-    while (done != h) {
+    while (true) {
       const bool is_last = std::abs(next) >= std::abs(h - done) * (1 - 1e-9);
       const double dt = is_last ? h - done : next;
       method_.tryStep(bodies, effects, time_s + done, dt);
       const double error = method_.error(dt);
-      // Rounding is no reason to go on halving, nor is a wrench that is not a number.
+      const bool is_least = std::abs(dt) <= least * (1 + 1e-6);  // the last is rounded
+      // Rounding is no reason to go on halving.
       const double allowed = std::max(tolerance_ * std::abs(dt), kRounding);
-      const bool is_too_small = std::abs(dt) <= kLeast * std::abs(h);
-      if (error <= allowed || is_too_small) {
+      if (std::isnan(error) && is_least)
+        return takeAsItIs(bodies, effects, time_s + done, h - done);
+      if (error <= allowed || is_least) {
         method_.take(bodies, dt);
-        done = is_last ? h : done + dt;
+        if (is_last) return;
+        done += dt;
       }
-      const double factor = error > 0 ? 0.9 * std::pow(allowed / error, 1.0 / 8) : 5;
-      next = dt * (std::isnan(factor) ? 0.2 : std::clamp(factor, 0.2, 5.0));
+      const double factor = error == 0 ? 5 : 0.9 * std::pow(allowed / error, 1.0 / 8);
+      const double wanted =
+          std::abs(dt) * (std::isnan(factor) ? 0.2 : std::clamp(factor, 0.2, 5.0));
+      next = std::copysign(std::max(wanted, least), h);
     }
   }
 
  private:
   static constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-  static constexpr double kLeast = 1e-6;  // of the whole step
+  static constexpr double kLeast = 1e-3;  // of the whole step, however stiff
+
+  /// What is left of the step, under wrenches that are no numbers: no smaller step would help.
+  void takeAsItIs(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+    method_.tryStep(bodies, effects, time_s, h);
+    method_.take(bodies, h);
+  }
 
   /// A fifth of a radian of the fastest body.
   static double firstStep(const Bodies& bodies, double h) {
     double rate = 0;
     for (Eigen::Index i = 0; i < bodies.count(); ++i)
       rate = std::max(rate, angularVelocityInBody(bodies.state(i), bodies.moments(i)).norm());
-    return rate * std::abs(h) > 0.2 ? std::copysign(0.2 / rate, h) : h;
+    if (!(rate * std::abs(h) > 0.2)) return h;
+    return std::copysign(std::max(0.2 / rate, kLeast * std::abs(h)), h);
   }
 
   DormandPrince<gyroscopic> method_;
