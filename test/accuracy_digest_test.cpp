@@ -57,6 +57,19 @@ TEST(Front, ErrorsBelowTheDoubtAreAllTheSame) {
   EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false}));
 }
 
+TEST(Front, ErrorsThatDifferByLessThanTheDoubtAreTheSameAndTheCheaperWins) {
+  const Report noise = reportOf({{"split2", 1, 1.9e-8, 100}, {"exact", 1, 1.1e-8, 200}}, 1e-8);
+  EXPECT_EQ(frontOf(noise), (std::vector<bool>{true, false}));
+  const Report more = reportOf({{"split2", 1, 3.1e-8, 100}, {"exact", 1, 1.1e-8, 200}}, 1e-8);
+  EXPECT_EQ(frontOf(more), (std::vector<bool>{true, true}));
+}
+
+TEST(Front, OfThreeThatBeatEachOtherInTurnOneStays) {
+  const Report report = reportOf(
+      {{"rk4", 1, 2.8e-8, 100}, {"split2", 1, 1.9e-8, 100}, {"exact", 1, 1e-8, 100}}, 1e-8);
+  EXPECT_EQ(frontOf(report), (std::vector<bool>{false, false, true}));
+}
+
 TEST(Front, OfRowsThatCostTheSameTheFirstIsOnIt) {
   const Report report =
       reportOf({{"exact", 1, 0, 100}, {"exact", 2, 0, 97}, {"split2", 1, 1e-3, 98}});
