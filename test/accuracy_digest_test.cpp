@@ -109,6 +109,25 @@ TEST(Digest, DoesNotExtrapolateWhatDoesNotFallAsItsOrderSays) {
   EXPECT_TRUE(contains(digest(report).at(0), {"0.01 rad: nothing that was tried gets there"}));
 }
 
+TEST(Digest, PositionsAreReportedWhereTheyDifferByMoreThanRounding) {
+  Report report = reportOf({{"semi_implicit", 1, 1e-3, 50}, {"exact", 1, 0, 200}});
+  EXPECT_FALSE(positionsMatter(report));
+  report.rows[0].flight.worst.pose.position_m = 1e-3;
+  ASSERT_TRUE(positionsMatter(report));
+  std::string all;
+  for (const std::string& sentence : digest(report)) all += sentence + "\n";
+  EXPECT_TRUE(contains(all, {"Positions: 0.01 m: semi_implicit, 50 ns a body and tick; 0.0001, "
+                             "1e-06, 1e-08 m: exact, 200 ns a body and tick."}));
+}
+
+TEST(Digest, APositionBudgetIsReportedInAnyCase) {
+  Report report = reportOf({{"exact", 1, 0, 200}});
+  report.scene.accuracy = Budget{};
+  EXPECT_FALSE(positionsMatter(report));
+  report.scene.accuracy->position_m = 1e-3;
+  EXPECT_TRUE(positionsMatter(report));
+}
+
 TEST(Digest, RoundingIsWhatAnotherAttitudeChanges) {
   Plan plan;
   plan.scene = sceneOfCase("tumbling_stone");

@@ -68,14 +68,23 @@ double positionError(const Row& row) { return row.flight.worst.pose.position_m; 
 
 /// What keeps the positions, if they matter besides the attitudes.
 std::string onPositions(const Report& report) {
-  std::string text = "Positions";
-  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+  std::string text = "Positions", goals;
+  const Row* before = nullptr;
+  const auto end = [&] {  // of the goals that one row is best for
+    if (goals.empty()) return;
+    text += (text.back() == 's' ? ": " : "; ") + goals + " m: " +
+            (before ? nameOf(*before) + ", " + duration(before->cost.median_ns) + " a body and tick"
+                    : "nothing that was tried gets there");
+    goals.clear();
+  };
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
     if (tolerance <= report.truth.doubt.position_m) continue;
     const Row* row = cheapestOf(flownRows(report), positionError, tolerance);
-    text += (text.back() == 's' ? ": " : "; ") + number(tolerance) + " m: " +
-            (row ? nameOf(*row) + ", " + duration(row->cost.median_ns) + " a body and tick"
-                 : "nothing that was tried gets there");
+    if (row != before) end();
+    goals += (goals.empty() ? "" : ", ") + number(tolerance);
+    before = row;
   }
+  end();
   return text + ".";
 }
 

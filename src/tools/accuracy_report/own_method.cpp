@@ -1,5 +1,6 @@
 #include "tools/accuracy_report/own_method.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -40,7 +41,9 @@ std::string rowText(const Report& report, const Method& method) {
   const Row* row = rowOf(report, method);
   if (!row) return text.str() + " (which is no row here)";
   if (row->outcome != Outcome::kFlown) return text.str() + " (" + row->why + ")";
-  text << " (" << errorOf(report, *row) << (report.rotates ? " rad" : " m") << " off at worst)";
+  const double error = errorOf(report, *row), doubt = doubtOf(report);
+  text << " (" << (error < doubt ? "less than " : "") << std::max(error, doubt)
+       << (report.rotates ? " rad" : " m") << " off at worst)";
   return text.str();
 }
 
