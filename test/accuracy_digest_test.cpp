@@ -57,6 +57,19 @@ TEST(Front, ErrorsBelowTheDoubtAreAllTheSame) {
   EXPECT_EQ(frontOf(report), (std::vector<bool>{true, false}));
 }
 
+TEST(Front, ErrorsThatDifferByLessThanTheDoubtAreTheSameAndTheCheaperWins) {
+  const Report noise = reportOf({{"split2", 1, 1.9e-8, 100}, {"exact", 1, 1.1e-8, 200}}, 1e-8);
+  EXPECT_EQ(frontOf(noise), (std::vector<bool>{true, false}));
+  const Report more = reportOf({{"split2", 1, 3.1e-8, 100}, {"exact", 1, 1.1e-8, 200}}, 1e-8);
+  EXPECT_EQ(frontOf(more), (std::vector<bool>{true, true}));
+}
+
+TEST(Front, OfThreeThatBeatEachOtherInTurnOneStays) {
+  const Report report = reportOf(
+      {{"rk4", 1, 2.8e-8, 100}, {"split2", 1, 1.9e-8, 100}, {"exact", 1, 1e-8, 100}}, 1e-8);
+  EXPECT_EQ(frontOf(report), (std::vector<bool>{false, false, true}));
+}
+
 TEST(Front, OfRowsThatCostTheSameTheFirstIsOnIt) {
   const Report report =
       reportOf({{"exact", 1, 0, 100}, {"exact", 2, 0, 97}, {"split2", 1, 1e-3, 98}});
@@ -94,6 +107,25 @@ TEST(Digest, DoesNotExtrapolateWhatDoesNotFallAsItsOrderSays) {
       reportOf({{"semi_implicit_velocity", 64, 3.1, 1e3}, {"semi_implicit_velocity", 256, 2, 4e3}});
   EXPECT_FALSE(extrapolate(report, "semi_implicit_velocity", 1e-6, 0));
   EXPECT_TRUE(contains(digest(report).at(0), {"0.01 rad: nothing that was tried gets there"}));
+}
+
+TEST(Digest, PositionsAreReportedWhereTheyDifferByMoreThanRounding) {
+  Report report = reportOf({{"semi_implicit", 1, 1e-3, 50}, {"exact", 1, 0, 200}});
+  EXPECT_FALSE(positionsMatter(report));
+  report.rows[0].flight.worst.pose.position_m = 1e-3;
+  ASSERT_TRUE(positionsMatter(report));
+  std::string all;
+  for (const std::string& sentence : digest(report)) all += sentence + "\n";
+  EXPECT_TRUE(contains(all, {"Positions: 0.01 m: semi_implicit, 50 ns a body and tick; 0.0001, "
+                             "1e-06, 1e-08 m: exact, 200 ns a body and tick."}));
+}
+
+TEST(Digest, APositionBudgetIsReportedInAnyCase) {
+  Report report = reportOf({{"exact", 1, 0, 200}});
+  report.scene.accuracy = Budget{};
+  EXPECT_FALSE(positionsMatter(report));
+  report.scene.accuracy->position_m = 1e-3;
+  EXPECT_TRUE(positionsMatter(report));
 }
 
 TEST(Digest, RoundingIsWhatAnotherAttitudeChanges) {

@@ -101,8 +101,11 @@ TEST_F(AccuracyProgram, SaysInOneLineWhatIsWrong) {
        {Wrong{{}, "give either a scene file or --case"},
         Wrong{{"--case=boxes"}, "'boxes' is not a case; there are dzhanibekov"},
         Wrong{{"--case=sphere", "--integrators=rk44"}, "'rk44' is not an integrator; there are"},
-        Wrong{{"--case=sphere", "--over=0.001"}, "shorter than a step"},
-        Wrong{{"no_such.yaml"}, "no_such.yaml"}}) {
+        Wrong{{"--case=sphere", "--over=0.001"},
+              "over 0.001 s: at least a tick, which is 0.02 s (step_s)"},
+        Wrong{{"--case=sphere", "--over=1e9", "--output=/dev/null/no"},  // at once
+              "/dev/null/no: the folder for the output cannot be written to"},
+        Wrong{{"no_such.yaml"}, fs::current_path().string() + "/no_such.yaml: cannot be read"}}) {
     std::vector<std::string> command = {kReport};
     command.insert(command.end(), wrong.arguments.begin(), wrong.arguments.end());
     const Ended ended = run(command);
@@ -110,8 +113,87 @@ TEST_F(AccuracyProgram, SaysInOneLineWhatIsWrong) {
     EXPECT_TRUE(contains(ended.said, {wrong.says}));
     EXPECT_EQ(std::count(ended.said.begin(), ended.said.end(), '\n'), 1) << ended.said;
   }
-  for (const char* argument : {"--substeps=0", "--substeps=x", "--over=-1", "--nonsense"})
-    EXPECT_NE(run({kReport, "--case=sphere", argument}).code, 0) << argument;
+  EXPECT_NE(run({kReport, "--case=sphere", "--nonsense"}).code, 0);
+}
+
+TEST_F(AccuracyProgram, RefusesNumbersOutOfRangeWithTheRange) {
+  struct Wrong {
+    std::string argument, says;
+  };
+  for (const Wrong& wrong :
+       {Wrong{"--substeps=0", "--substeps: '0' is not a whole number from 1 to 16777216"},
+        Wrong{"--substeps=2,x", "'x' is not a whole number"},
+        Wrong{"--substeps=1.5", "'1.5' is not a whole number"},
+        Wrong{"--over=-1", "--over: '-1' is not a number from 1e-06 to 1000000000 s"},
+        Wrong{"--over=nan", "'nan' is not a number"},
+        Wrong{"--tolerances=0", "--tolerances: '0' is not a number from 1e-16 to 1\n"},
+        Wrong{"--longest=-1", "--longest: '-1' is not a number from 0.001 to 1000000 s"},
+        Wrong{"--only-step=-5",
+              "--only-step: '-5' is not a whole number from 1 to 1000000000 ticks"},
+        Wrong{"--no-plots", "--no-plots requires --output"}}) {
+    const Ended ended = run({kReport, "--case=sphere", wrong.argument});
+    EXPECT_NE(ended.code, 0) << wrong.argument;
+    EXPECT_TRUE(contains(ended.said, {wrong.says}));
+  }
+}
+
+TEST_F(AccuracyProgram, DrawsWhatThereIsIfNoMethodFliesToTheEnd) {
+  const Ended infinite = run({kReport, "--case=dzhanibekov", "--integrators=semi_implicit_velocity",
+                              "--substeps=1", "--repeats=1", "--output=" + folder_});
+  EXPECT_EQ(infinite.code, 0) << infinite.said;
+  EXPECT_TRUE(contains(infinite.said, {"No work_precision.png: no integrator flew to the end: "
+                                       "semi_implicit_velocity (infinite after 53.",
+                                       "energy.png"}));
+  const std::string path =
+      scene("bodies: {top: {box: {size: [1, 2, 3], density: 1}, angular_velocity: [9, 300, 9]}}\n");
+  const Ended refused = run({kReport, path, "--over=1", "--integrators=rk4", "--substeps=1",
+                             "--repeats=1", "--output=" + folder_});
+  EXPECT_EQ(refused.code, 0) << refused.said;
+  EXPECT_TRUE(
+      contains(refused.said, {"No pictures: no integrator could fly this: rk4 (refused: "}));
+  EXPECT_FALSE(fs::exists(folder_ + "/energy.png")) << "the one of the report before";
+}
+
+TEST_F(AccuracyProgram, DrawsABodyAtRest) {
+  const std::string path = scene("bodies: {block: {box: {size: [1, 2, 3], density: 1}}}\n");
+  const Ended ended =
+      run({kReport, path, "--over=1", "--substeps=1", "--repeats=1", "--output=" + folder_});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_GT(coloursOf(folder_ + "/work_precision.png"), 100);
+}
+
+TEST_F(AccuracyProgram, SaysWhichRowIsTheScenesOwn) {
+  const std::string body =
+      "bodies: {top: {box: {size: [1, 2, 3], density: 1}, angular_velocity: [1, 3, 2]}}\n";
+  const std::vector<std::string> options = {"--over=2", "--substeps=1,2", "--repeats=1"};
+  const auto report = [&](const std::string& yaml) {
+    std::vector<std::string> command = {kReport, scene(yaml + body)};
+    command.insert(command.end(), options.begin(), options.end());
+    return run(command).said;
+  };
+  EXPECT_TRUE(contains(report("integrator: split2\nsubsteps: 2\n"),
+                       {"The scene's own integrator and substeps: split2 x 2 ("}));
+  EXPECT_TRUE(
+      contains(report("integrator: split2\nsubsteps: 3\n"), {"split2 x 3 (which is no row"}));
+  EXPECT_TRUE(contains(report("accuracy: {attitude_rad: 1.0e-6, over_s: 2}\n"),
+                       {"The scene's own accuracy, 1e-06 rad over 2 s, chooses exact ("}));
+}
+
+TEST_F(AccuracyProgram, EndsQuietlyWhenInterrupted) {
+  const Ended flown = run({kReport, "--case=dzhanibekov", "--over=20", "--substeps=1",
+                           "--repeats=1", "--output=" + folder_, "--no-plots"});
+  ASSERT_EQ(flown.code, 0) << flown.said;
+  ChildProcess plot({kPlot, folder_});
+  ASSERT_TRUE(plot.says("work_precision.png", 60));
+  plot.signal(SIGINT);
+  EXPECT_EQ(plot.exitCode(), 130);
+  EXPECT_FALSE(contains(plot.said(), {"Traceback"})) << plot.said();
+}
+
+TEST_F(AccuracyProgram, RosrunFindsOneScriptInTheDevelSpace) {
+  // It offers every executable of the name, the source's, too.
+  const fs::perms source = fs::status(PACKAGE_DIR "/scripts/plot_accuracy").permissions();
+  EXPECT_EQ(source & fs::perms::owner_exec, fs::perms::none);
 }
 
 TEST_F(AccuracyProgram, ListsTheCasesAndHelps) {

@@ -77,6 +77,24 @@ TEST(ReportedErrors, OfPositionAreThoseOfTheParabola) {
   EXPECT_LE(errorOf(report, rowOf(report, "exact")), 1e-13);
 }
 
+TEST(ReportedErrors, TheBodyThatIsShownIsTheOneFarthestOff) {
+  Plan plan = planOf("tumbling_stone", 5);
+  SceneBody fast = plan.scene.bodies[0];
+  fast.name = "fast";
+  fast.w_WB_L *= 3;
+  plan.scene.bodies.push_back(fast);
+  const Report report = make(plan, silently);
+  EXPECT_EQ(report.shown, 1);
+  const FlightErrors& flight = rowOf(report, "split2").flight;
+  ASSERT_EQ(flight.worst_of.size(), 2u);
+  EXPECT_LT(flight.worst_of[0].attitude_rad, flight.worst_of[1].attitude_rad);
+  EXPECT_EQ(flight.worst_of[1].attitude_rad, flight.worst.pose.attitude_rad);
+  for (std::size_t k = 0; k < flight.samples.size(); ++k)
+    EXPECT_EQ(
+        flight.samples[k].shown.attitude_rad,
+        angleBetween(flight.samples[k].q_WB, report.truth.trajectory.samples[k].state(1).q_WB));
+}
+
 TEST(ReportedErrors, WorstIsAtLeastTheEndAndAllSamples) {
   const Report report = make(planOf("dzhanibekov", 10), silently);
   for (const Row& row : report.rows) {

@@ -41,14 +41,51 @@ std::vector<const Row*> flownRows(const Report& report, const std::string& rung)
   return rows;
 }
 
-const Row* cheapestWithin(const std::vector<const Row*>& rows, const Report& report,
-                          double tolerance) {
+template <class Error>  // of a row
+const Row* cheapestOf(const std::vector<const Row*>& rows, const Error& error, double tolerance) {
   const Row* cheapest = nullptr;
   for (const Row* row : rows)
-    if (errorOf(report, *row) <= tolerance &&
+    if (error(*row) <= tolerance &&
         (!cheapest || row->cost.median_ns * kSameCost < cheapest->cost.median_ns))
       cheapest = row;
   return cheapest;
+}
+
+const Row* cheapestWithin(const std::vector<const Row*>& rows, const Report& report,
+                          double tolerance) {
+  return cheapestOf(
+      rows, [&](const Row& row) { return errorOf(report, row); }, tolerance);
+}
+
+std::vector<const Row*> flownRows(const Report& report) {
+  std::vector<const Row*> rows;
+  for (const Row& row : report.rows)
+    if (row.outcome == Outcome::kFlown) rows.push_back(&row);
+  return rows;
+}
+
+double positionError(const Row& row) { return row.flight.worst.pose.position_m; }
+
+/// What keeps the positions, if they matter besides the attitudes.
+std::string onPositions(const Report& report) {
+  std::string text = "Positions", goals;
+  const Row* before = nullptr;
+  const auto end = [&] {  // of the goals that one row is best for
+    if (goals.empty()) return;
+    text += (text.back() == 's' ? ": " : "; ") + goals + " m: " +
+            (before ? nameOf(*before) + ", " + duration(before->cost.median_ns) + " a body and tick"
+                    : "nothing that was tried gets there");
+    goals.clear();
+  };
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    if (tolerance <= report.truth.doubt.position_m) continue;
+    const Row* row = cheapestOf(flownRows(report), positionError, tolerance);
+    if (row != before) end();
+    goals += (goals.empty() ? "" : ", ") + number(tolerance);
+    before = row;
+  }
+  end();
+  return text + ".";
 }
 
 struct Yardstick {
@@ -127,10 +164,7 @@ std::string basis(const Report& report, const Yardstick& yardstick) {
 }  // namespace
 
 const Row* cheapestWithin(const Report& report, double tolerance) {
-  std::vector<const Row*> rows;
-  for (const Row& row : report.rows)
-    if (row.outcome == Outcome::kFlown) rows.push_back(&row);
-  return cheapestWithin(rows, report, tolerance);
+  return cheapestWithin(flownRows(report), report, tolerance);
 }
 
 double roundingOf(const Report& report, const Method& method) {
@@ -177,11 +211,27 @@ std::optional<Extrapolation> extrapolate(const Report& report, const std::string
   return needed;
 }
 
+bool positionsMatter(const Report& report) {
+  if (!report.rotates) return false;
+  if (report.scene.accuracy && std::isfinite(report.scene.accuracy->position_m)) return true;
+  double largest = 0;  // [m]
+  for (const Bodies& bodies : report.truth.trajectory.samples)
+    largest = std::max(largest, bodies.p_WBcm.cwiseAbs().maxCoeff());
+  for (const Row* row : flownRows(report)) {
+    // Each substep rounds three components by half an ulp; the true flight has its own doubt.
+    const double roundings = std::sqrt(3) * static_cast<double>(report.ticks) *
+                             row->method.substeps * std::numeric_limits<double>::epsilon();
+    if (positionError(*row) > 2 * report.truth.doubt.position_m + roundings * largest) return true;
+  }
+  return false;
+}
+
 std::vector<std::string> digest(const Report& report) {
   const std::vector<Yardstick> yardsticks = yardsticksOf(report);
   std::vector<std::string> sentences;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
     if (tolerance > doubtOf(report)) sentences.push_back(sentence(report, yardsticks, tolerance));
+  if (positionsMatter(report)) sentences.push_back(onPositions(report));
   for (const Yardstick& yardstick : yardsticks)
     if (errorOf(report, *flownRows(report, yardstick.rung).back()) > doubtOf(report))
       sentences.push_back(basis(report, yardstick));

@@ -32,6 +32,10 @@ std::optional<Extrapolation> extrapolate(const Report& report, const std::string
 /// where the attitude does change something: with effects.
 double roundingOf(const Report& report, const Method& method);
 
+/// Whether positions of rotating bodies differ by more than rounding, or have a budget: then they
+/// are reported besides the attitudes.
+bool positionsMatter(const Report& report);
+
 /// A few sentences that say what the rows say.
 std::vector<std::string> digest(const Report& report);
 

@@ -38,13 +38,16 @@ double relative(double difference, double scale) {
   return scale > 0 ? std::abs(difference) / scale : 0;
 }
 
-Errors errorsBetween(const Bodies& flown, const Bodies& truth, const Scales& scales) {
+/// The worst of all bodies; each one's goes into `worst_of`.
+Errors errorsBetween(const Bodies& flown, const Bodies& truth, const Scales& scales,
+                     std::vector<Deviation>& worst_of) {
   Errors worst;
   for (Eigen::Index i = 0; i < truth.count(); ++i) {
     const Errors one = {deviation(flown, truth, i),
                         relative(energyOf(flown, i) - energyOf(truth, i), scales.energy(i)),
                         relative(momentumOf(flown, i) - momentumOf(truth, i), scales.momentum(i))};
     worst = worse(worst, one);
+    worst_of[i] = rigid_body_sim::worse(worst_of[i], one.pose);
   }
   return worst;
 }
@@ -66,19 +69,20 @@ Errors worse(const Errors& a, const Errors& b) {
           larger(a.momentum, b.momentum)};
 }
 
-Eigen::Index shownBody(const Scene& scene) {
+Eigen::Index firstToRotate(const Scene& scene) {
   const auto rotates = [](const SceneBody& body) { return !body.is_point_mass; };
   const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), rotates);
   return found == scene.bodies.end() ? 0 : found - scene.bodies.begin();
 }
 
-FlightErrors errorsOf(const Scene& scene, const Method& method, const Trajectory& truth) {
+FlightErrors errorsOf(const Scene& scene, const Method& method, const Trajectory& truth,
+                      Eigen::Index shown) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const Scales scales(truth);
-  const Eigen::Index shown = shownBody(scene);
   Simulator simulator(withMethod(scene, method));
   FlightErrors flight;
+  flight.worst_of.resize(scene.bodies.size());
   for (std::size_t k = 0; k < truth.samples.size(); ++k) {
     if (k > 0)
       for (Tick i = 0; i < truth.every && simulator.frozenBodies().empty(); ++i) simulator.step();
@@ -86,11 +90,14 @@ FlightErrors errorsOf(const Scene& scene, const Method& method, const Trajectory
       flight.infinite_after_s =
           static_cast<double>(simulator.frozenBodies().front().tick) * scene.step_s();
       flight.worst = flight.end = infiniteErrors();
+      for (const auto& frozen : simulator.frozenBodies())
+        flight.worst_of[frozen.body] = flight.worst.pose;
       break;
     }
-    flight.end = errorsBetween(simulator.bodies(), truth.samples[k], scales);
+    flight.end = errorsBetween(simulator.bodies(), truth.samples[k], scales, flight.worst_of);
     flight.worst = worse(flight.worst, flight.end);
     flight.samples.push_back({static_cast<double>(simulator.tick()) * scene.step_s(), flight.end,
+                              deviation(simulator.bodies(), truth.samples[k], shown),
                               simulator.state(shown).q_WB});
   }
   flight.wall_s = std::chrono::duration<double>(Clock::now() - start).count();

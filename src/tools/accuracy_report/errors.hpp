@@ -20,13 +20,15 @@ Errors worse(const Errors& a, const Errors& b);
 struct ErrorSample {
   double time_s;
   Errors errors;
-  Quaterniond q_WB;  ///< of the body that is shown
+  Deviation shown;   ///< of the body that is shown alone
+  Quaterniond q_WB;  ///< of that body
 };
 
 /// A flight held against the true one.
 struct FlightErrors {
   Errors worst;
   Errors end;
+  std::vector<Deviation> worst_of;  ///< each body's
   std::vector<ErrorSample> samples;
   double infinite_after_s = std::numeric_limits<double>::infinity();  ///< a body was frozen then;
                                                                       ///< no samples after it
@@ -34,11 +36,13 @@ struct FlightErrors {
 };
 
 /// The first body that rotates, or the first one.
-Eigen::Index shownBody(const Scene& scene);
+Eigen::Index firstToRotate(const Scene& scene);
 
 /// Flies `scene` by `method` as long as the true flight, and compares at its samples.
+/// @param shown the body whose attitudes the samples hold
 /// @throws std::invalid_argument as Simulator, when the method refuses the scene.
-FlightErrors errorsOf(const Scene& scene, const Method& method, const Trajectory& truth);
+FlightErrors errorsOf(const Scene& scene, const Method& method, const Trajectory& truth,
+                      Eigen::Index shown);
 
 /// The fastest rotation of any body at any sample [rad/s].
 double largestAngularSpeed(const Trajectory& trajectory);

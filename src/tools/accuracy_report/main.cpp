@@ -20,12 +20,31 @@ struct Arguments {
   std::string scene_file;
   std::string case_name;
   std::string output;
-  bool has_plots = true;
+  bool has_no_plots = false;
   bool counts_instructions = false;
   bool lists_cases = false;
   Tick only_step = 0;
   Plan plan;
 };
+
+/// A number within bounds; says so with its unit when it is not.
+CLI::Validator within(double least, double most, const std::string& unit, bool is_whole = false) {
+  std::ostringstream range;
+  range.precision(12);
+  range << (is_whole ? "a whole number" : "a number") << " from " << least << " to " << most
+        << (unit.empty() ? "" : " ") << unit;
+  const std::string wanted = range.str();
+  return {[=](std::string& text) -> std::string {
+            char* end = nullptr;
+            const double number = std::strtod(text.c_str(), &end);
+            const bool is_number = !text.empty() && *end == '\0';
+            if (is_number && number >= least && number <= most &&
+                !(is_whole && text.find_first_not_of("+0123456789") != std::string::npos))
+              return {};
+            return "'" + text + "' is not " + wanted;
+          },
+          "(" + wanted + ")"};
+}
 
 std::string ownPath() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
@@ -69,26 +88,29 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--case", arguments.case_name, "a case of the library instead of a scene");
   app.add_flag("--list", arguments.lists_cases, "list the cases and end");
   app.add_option("--over", plan.over_s, "simulated time [s], default 60")
-      ->check(CLI::Range(1e-6, 1e9));
+      ->check(within(1e-6, 1e9, "s"));
   app.add_option("--substeps", plan.substeps,
                  "numbers of substeps a tick, ascending, default 1,2,4,8,16,32,64,256,1024,4096; a "
                  "rung stops at the first that the reference cannot tell from the truth")
       ->delimiter(',')
-      ->check(CLI::Range(1, 1 << 24));
+      ->check(within(1, 1 << 24, "", true));
   app.add_option("--tolerances", plan.tolerances,
                  "of rungs that adapt their step, default 1e-4,1e-6,1e-8,1e-10,1e-12")
       ->delimiter(',')
-      ->check(CLI::Range(1e-16, 1.0));
+      ->check(within(1e-16, 1, ""));
   app.add_option("--integrators", plan.rungs, "the rungs, default all")->delimiter(',');
   app.add_option("--repeats", plan.repeats, "timed runs of each row, the median counts; default 7")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--longest", plan.longest_s, "wall time a flight may take [s], default 10");
+      ->check(within(1, 1000, "", true));
+  app.add_option("--longest", plan.longest_s, "wall time a flight may take [s], default 10")
+      ->check(within(1e-3, 1e6, "s"));
   app.add_flag("--instructions", arguments.counts_instructions,
                "count instructions with valgrind; some seconds a row");
-  app.add_option("--output", arguments.output, "folder for CSV files and plots; default none");
-  app.add_flag("!--no-plots", arguments.has_plots, "write the CSV files only");
+  const auto output =
+      app.add_option("--output", arguments.output, "folder for CSV files and plots; default none");
+  app.add_flag("--no-plots", arguments.has_no_plots, "write the CSV files only")->needs(output);
   app.add_option("--only-step", arguments.only_step,
-                 "step the one method so many ticks and end, for valgrind or perf to look at");
+                 "step the one method so many ticks and end, for valgrind or perf to look at")
+      ->check(within(1, 1e9, "ticks", true));
 }
 
 void readScene(Arguments& arguments) {
@@ -98,8 +120,10 @@ void readScene(Arguments& arguments) {
     arguments.plan.name = arguments.case_name;
     arguments.plan.scene = sceneOfCase(arguments.case_name);
   } else {
-    arguments.plan.name = std::filesystem::path(arguments.scene_file).stem().string();
-    arguments.plan.scene = readSceneFile(arguments.scene_file);
+    const std::filesystem::path path = std::filesystem::absolute(arguments.scene_file);
+    arguments.plan.name = path.stem().string();
+    arguments.plan.scene = readSceneFile(path.string());
+    arguments.plan.says_own_method = true;
   }
 }
 
@@ -130,14 +154,16 @@ int run(Arguments& arguments) {
   if (arguments.only_step > 0) return onlyStep(arguments), 0;
   if (arguments.counts_instructions)
     arguments.plan.count_instructions_with = stepCommand(arguments);
+  const bool has_output = !arguments.output.empty();
+  const std::string folder = has_output ? std::filesystem::absolute(arguments.output).string() : "";
+  if (has_output) prepareFolder(folder);  // before the flights: they may take minutes
   const Report report = make(arguments.plan, showProgress);
   showProgress("", 1);
   print(report, std::cout);
-  if (arguments.output.empty()) return 0;
-  const std::string folder = std::filesystem::absolute(arguments.output).string();
+  if (!has_output) return 0;
   writeCsv(report, folder);
   std::cout << "\nNumbers: " << folder << "/*.csv" << std::endl;
-  return arguments.has_plots ? plot(folder) : 0;
+  return arguments.has_no_plots ? 0 : plot(folder);
 }
 
 /// roslaunch gives every program ROS's own arguments, `__name:=...`; this one is no node.

@@ -12,6 +12,7 @@
 
 #include "rigid_body_sim/simulator.hpp"
 #include "tools/accuracy_report/digest.hpp"
+#include "tools/accuracy_report/own_method.hpp"
 
 namespace rigid_body_sim::report {
 namespace {
@@ -115,8 +116,6 @@ std::string wrapped(const std::string& sentence) {
 // ---- CSV
 
 std::ofstream open(const std::string& folder, const std::string& name) {
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
   std::ofstream file(folder + "/" + name);
   if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
   return file;
@@ -151,19 +150,35 @@ const char* nameOf(Outcome outcome) {
   return "";
 }
 
+double startSpeed(const Bodies& start, Eigen::Index body) {
+  return angularVelocityInBody(start.state(body), start.moments(body)).norm();
+}
+
+Eigen::Index fastestBody(const Bodies& start) {
+  Eigen::Index fastest = 0;
+  for (Eigen::Index i = 1; i < start.count(); ++i)
+    if (startSpeed(start, i) > startSpeed(start, fastest)) fastest = i;
+  return fastest;
+}
+
 void writeCase(const Report& report, const std::string& folder) {
   std::ofstream file = open(folder, "case.csv");
-  const Eigen::Index shown = shownBody(report.scene);
+  const Eigen::Index shown = report.shown;
   const Bodies& start = report.truth.trajectory.samples.front();
+  const Eigen::Index fastest = fastestBody(start);
   const Eigen::Vector3d I = start.moments(shown);
   file << "key,value\n"
        << "name," << quoted(report.name) << "\nbodies," << report.scene.bodies.size() << "\nstep_s,"
        << csv(report.scene.step_s()) << "\nover_s," << csv(report.over_s) << "\nunit,"
        << (report.rotates ? "rad" : "m") << "\ndoubt," << csv(doubtOf(report)) << "\nhow,"
        << quoted(report.truth.how) << "\nbody," << quoted(report.scene.bodies[shown].name)
-       << "\nangular_speed_rad_s," << csv(angularVelocityInBody(start.state(shown), I).norm())
-       << "\nmass_kg," << csv(start.mass(shown)) << "\nI1_kg_m2," << csv(I(0)) << "\nI2_kg_m2,"
-       << csv(I(1)) << "\nI3_kg_m2," << csv(I(2)) << "\n";
+       << "\nangular_speed_rad_s," << csv(startSpeed(start, shown)) << "\nfastest,"
+       << quoted(report.scene.bodies[fastest].name) << "\nfastest_rad_s,"
+       << csv(startSpeed(start, fastest)) << "\neffects," << report.scene.effects.size()
+       << "\npositions_matter," << positionsMatter(report) << "\nposition_doubt,"
+       << csv(report.truth.doubt.position_m) << "\nmass_kg," << csv(start.mass(shown))
+       << "\nI1_kg_m2," << csv(I(0)) << "\nI2_kg_m2," << csv(I(1)) << "\nI3_kg_m2," << csv(I(2))
+       << "\n";
   for (const std::string& sentence : digest(report)) file << "digest," << quoted(sentence) << "\n";
   close(file, folder);
 }
@@ -197,19 +212,19 @@ void writeSample(std::ostream& file, const Method& method, const ErrorSample& sa
   const Quaterniond& q = sample.q_WB;
   file << method.integrator << ',' << method.substeps << ',' << csv(sample.time_s) << ','
        << csv(sample.errors.pose.attitude_rad) << ',' << csv(sample.errors.pose.position_m) << ','
-       << csv(sample.errors.energy) << ',' << csv(sample.errors.momentum) << ',' << csv(q.x())
-       << ',' << csv(q.y()) << ',' << csv(q.z()) << ',' << csv(q.w()) << '\n';
+       << csv(sample.errors.energy) << ',' << csv(sample.errors.momentum) << ','
+       << csv(sample.shown.attitude_rad) << ',' << csv(q.x()) << ',' << csv(q.y()) << ','
+       << csv(q.z()) << ',' << csv(q.w()) << '\n';
 }
 
 void writeFlights(const Report& report, const std::string& folder) {
   std::ofstream file = open(folder, "flights.csv");
-  file << "rung,substeps,time_s,attitude,position,energy,momentum,qx,qy,qz,qw\n";
+  file << "rung,substeps,time_s,attitude,position,energy,momentum,body_attitude,qx,qy,qz,qw\n";
   const Trajectory& truth = report.truth.trajectory;
   for (std::size_t k = 0; k < truth.samples.size(); ++k) {
     const double time_s =
         static_cast<double>(k) * static_cast<double>(truth.every) * report.scene.step_s();
-    writeSample(file, {"reference"},
-                {time_s, {}, truth.samples[k].state(shownBody(report.scene)).q_WB});
+    writeSample(file, {"reference"}, {time_s, {}, {}, truth.samples[k].state(report.shown).q_WB});
   }
   std::string last;
   for (const Row& row : report.rows) {
@@ -236,10 +251,21 @@ void print(const Report& report, std::ostream& out) {
   for (const Row& row : report.rows) rows.push_back(cellsOf(report, row));
   printTable(rows, out);
   out << '\n';
+  if (report.says_own_method) out << wrapped(ownMethod(report));
   for (const std::string& sentence : digest(report)) out << wrapped(sentence);
 }
 
+void prepareFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::string probe = folder + "/.probe";
+  if (!std::ofstream(probe))
+    throw std::invalid_argument(folder + ": the folder for the output cannot be written to");
+  std::filesystem::remove(probe, error);
+}
+
 void writeCsv(const Report& report, const std::string& folder) {
+  prepareFolder(folder);
   writeCase(report, folder);
   writeMethods(report, folder);
   writeFlights(report, folder);

@@ -71,7 +71,7 @@ void flyRow(Row& row, const Plan& plan, const Report& report, double angular_spe
   const std::string why = refusal(row, report.scene, angular_speed);
   if (!why.empty()) return setOutcome(row, Outcome::kRefused, "refused: " + why);
   try {
-    row.flight = errorsOf(report.scene, row.method, report.truth.trajectory);
+    row.flight = errorsOf(report.scene, row.method, report.truth.trajectory, report.shown);
     row.evaluations = evaluationsATick(report.scene, row.method);
   } catch (const std::invalid_argument& error) {
     return setOutcome(row, Outcome::kRefused, std::string("refused: ") + error.what());
@@ -146,19 +146,37 @@ void timeRows(Report& report, const Plan& plan, const Progress& progress) {
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cost = costs[k];
 }
 
+/// Flies the rows that are drawn again if the body that is to be shown is another.
+void showWorst(Report& report, const Progress& progress) {
+  const Eigen::Index worst = worstBody(report);
+  if (worst == report.shown) return;
+  report.shown = worst;
+  std::string last;
+  for (Row& row : report.rows) {
+    if (row.flight.samples.empty() || row.method.integrator == last) continue;
+    last = row.method.integrator;
+    progress(nameOf(row), 0.8);
+    row.flight = errorsOf(report.scene, row.method, report.truth.trajectory, worst);
+  }
+}
+
 Report begin(const Plan& plan) {
   Report report;
   report.name = plan.name;
   report.scene = plan.scene;
+  report.says_own_method = plan.says_own_method;
   const double step_s = plan.scene.step_s();
   const auto wanted = static_cast<Tick>(std::llround(plan.over_s / step_s));
-  if (wanted < 1) throw std::invalid_argument("the flight is shorter than a step");
+  if (wanted < 1)
+    throw std::invalid_argument("over " + rounded(plan.over_s) + " s: at least a tick, which is " +
+                                rounded(step_s) + " s (step_s) in this scene");
   const Tick every = std::max<Tick>(1, wanted / kSamples);
   report.ticks = (wanted + every - 1) / every * every;
   report.over_s = static_cast<double>(report.ticks) * step_s;
   report.truth = bestKnown(plan.scene, report.ticks, every);
   if (!std::isfinite(doubtOf(report)))
     throw std::invalid_argument("nothing is known of this flight: the reference is infinite");
+  report.shown = firstToRotate(plan.scene);
   report.rotates = std::any_of(plan.scene.bodies.begin(), plan.scene.bodies.end(),
                                [](const SceneBody& body) { return !body.is_point_mass; });
   return report;
@@ -177,6 +195,7 @@ Report make(const Plan& plan, const Progress& progress) {
     for (Row& row : flyRung(*rungs[k], plan, report, angular_speed, tell))
       report.rows.push_back(std::move(row));
   }
+  showWorst(report, progress);
   timeRows(report, plan, progress);
   markFront(report);
   return report;
@@ -192,22 +211,57 @@ double doubtOf(const Report& report) {
 }
 
 bool isBeaten(const Report& report, const Row& row, const Row& by) {
-  const double error = std::max(errorOf(report, row), doubtOf(report));
-  const double other = std::max(errorOf(report, by), doubtOf(report));
-  if (other > error || by.cost.median_ns > kSameCost * row.cost.median_ns) return false;
-  return other < error || by.cost.median_ns * kSameCost < row.cost.median_ns || &by < &row;
+  const double doubt = doubtOf(report);
+  const double error = std::max(errorOf(report, row), doubt);
+  const double other = std::max(errorOf(report, by), doubt);
+  if (other > error + doubt || by.cost.median_ns > kSameCost * row.cost.median_ns) return false;
+  return other < error - doubt || by.cost.median_ns * kSameCost < row.cost.median_ns || &by < &row;
+}
+
+Eigen::Index worstBody(const Report& report) {
+  std::vector<const Row*> rows;  // of each rung the crudest that was flown
+  for (const Row& row : report.rows)
+    if (row.outcome == Outcome::kFlown &&
+        (rows.empty() || rows.back()->method.integrator != row.method.integrator))
+      rows.push_back(&row);
+  const auto isTelling = [&](const Row* row) {
+    const double error = errorOf(report, *row);
+    return error > doubtOf(report) && !(report.rotates && error > kLost);
+  };
+  if (std::any_of(rows.begin(), rows.end(), isTelling))
+    rows.erase(std::stable_partition(rows.begin(), rows.end(), isTelling), rows.end());
+  Eigen::Index worst = firstToRotate(report.scene);
+  if (rows.empty()) return worst;
+  const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2);
+  std::nth_element(rows.begin(), middle, rows.end(), [&](const Row* a, const Row* b) {
+    return errorOf(report, *a) < errorOf(report, *b);
+  });
+  const std::vector<Deviation>& errors = (*middle)->flight.worst_of;
+  const auto part = report.rotates ? &Deviation::attitude_rad : &Deviation::position_m;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (errors[i].*part > errors[worst].*part) worst = static_cast<Eigen::Index>(i);
+  return worst;
 }
 
 void markFront(Report& report) {
   const auto counts = [&](const Row& row) {
     return row.outcome == Outcome::kFlown && !(report.rotates && errorOf(report, row) > kLost);
   };
-  for (Row& row : report.rows) {
-    const auto beats = [&](const Row& by) {
-      return counts(by) && &by != &row && isBeaten(report, row, by);
-    };
-    row.is_on_front = counts(row) && std::none_of(report.rows.begin(), report.rows.end(), beats);
+  std::vector<Row*> front;  // grown, as with errors that may be equal three can beat each other
+  std::vector<Row*> rows;
+  for (Row& row : report.rows)
+    if (row.is_on_front = false; counts(row)) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(), [](const Row* a, const Row* b) {
+    return a->cost.median_ns < b->cost.median_ns;
+  });
+  for (Row* row : rows) {
+    const auto beats = [&](const Row* by) { return isBeaten(report, *row, *by); };
+    if (std::any_of(front.begin(), front.end(), beats)) continue;
+    const auto isOut = [&](const Row* old) { return isBeaten(report, *old, *row); };
+    front.erase(std::remove_if(front.begin(), front.end(), isOut), front.end());
+    front.push_back(row);
   }
+  for (Row* row : front) row->is_on_front = true;
 }
 
 std::string nameOf(const Row& row) {

@@ -18,6 +18,7 @@ struct Plan {
   std::vector<int> substeps;            ///< ascending
   std::vector<double> tolerances;       ///< descending; for methods that adapt their step
   std::vector<std::string> rungs;       ///< names of integrators; empty: all
+  bool says_own_method = false;         ///< the scene is a file: say what it flies by itself
   int repeats = 7;                      ///< timed runs of each method
   double longest_s = 10;                ///< of wall time that one flight may take
   StepCommand count_instructions_with;  ///< empty: instructions are not counted
@@ -42,10 +43,12 @@ struct Row {
 struct Report {
   std::string name;
   Scene scene;
+  bool says_own_method = false;
   double over_s = 0;  ///< a whole number of ticks
   Tick ticks = 0;
   TrueTrajectory truth;
-  bool rotates = true;  ///< errors are judged in rad; else, as all bodies are points, in m
+  bool rotates = true;     ///< errors are judged in rad; else, as all bodies are points, in m
+  Eigen::Index shown = 0;  ///< the body that is drawn: see worstBody
   std::vector<Row> rows;
 };
 
@@ -65,11 +68,15 @@ double doubtOf(const Report& report);
 constexpr double kSameCost = 1.05;
 
 /// Whether `by` is at least as accurate and as cheap, and better in one; of equals, the first of
-/// the rows. Errors below the doubt count as equal to it.
+/// the rows. Errors count as equal if they differ by no more than the doubt, or are below it.
 bool isBeaten(const Report& report, const Row& row, const Row& by);
 
-/// Marks the rows that no other beats. Rows that are off by more than a radian have lost the
-/// attitude and do not count.
+/// The body that is farthest off where a rung of middling quality flies with its largest steps.
+/// Of equals the first; at least one that rotates if any does.
+Eigen::Index worstBody(const Report& report);
+
+/// Marks the rows that no other of the front beats. Rows that are off by more than a radian have
+/// lost the attitude and do not count.
 void markFront(Report& report);
 
 /// `rk4`, `rk4 x 3`, `adaptive 1e-08`.
