@@ -1,6 +1,7 @@
 #pragma once
 
-#include "integrators/orbit.hpp"
+#include <cmath>
+
 #include "rigid_body_sim/body_state.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/rotation.hpp"
@@ -18,6 +19,13 @@ Vector3d momentumRate(const Vector3d& m_B, const Vector3d& w_B, const Vector3d& 
   return m_B.cross(w_B) + t_B;
 }
 
+/// The vector, not zero, times a power of two that brings it to a length of about one: without any
+/// rounding.
+inline Vector3d scaled(const Vector3d& v) {
+  const int exponent = -std::ilogb(v.lpNorm<Eigen::Infinity>());
+  return {std::scalbn(v.x(), exponent), std::scalbn(v.y(), exponent), std::scalbn(v.z(), exponent)};
+}
+
 /// Ends a step of `body`, which is at its beginning, at the attitude q_WB and the momentum m_B.
 /// `L_W` is what the world's torques have summed up to: the shortest turn of the body brings R m
 /// onto it. So the angular momentum of free flight stays the same to the bit, and no error of m
@@ -32,13 +40,20 @@ void setRotation(BodyState& body, const Quaterniond& q_WB, const Vector3d& m_B,
     body.L_WBcm_W = body.q_WB * m_B;
     return;
   }
-  const Direction start(body.L_WBcm_W), now(body.q_WB * m_B), wanted(L_W);
+  const double start = body.L_WBcm_W.lpNorm<Eigen::Infinity>();
   body.L_WBcm_W = L_W;
-  if (now.G == 0 || !(wanted.G > 0.1 * start.G)) return;
-  const double cosine = now.m.dot(wanted.m);
-  if (!(cosine > 0.9999)) return;
-  const Vector3d axis = now.m.cross(wanted.m);
-  const Quaterniond turn(1 + cosine, axis.x(), axis.y(), axis.z());
+  if (!(L_W.lpNorm<Eigen::Infinity>() > 0.1 * start) || m_B.isZero(0)) return;
+  Vector3d now = body.q_WB * m_B, wanted = L_W;
+  double size = m_B.norm() * L_W.norm();
+  if (!(size > 1e-140 && size < 1e140)) {  // products of two of these leave the range of numbers
+    now = scaled(now);
+    wanted = scaled(wanted);
+    size = now.norm() * wanted.norm();
+  }
+  const double cosine = now.dot(wanted);
+  if (!(cosine > 0.9999 * size)) return;
+  const Vector3d axis = now.cross(wanted);
+  const Quaterniond turn(size + cosine, axis.x(), axis.y(), axis.z());
   body.q_WB = (turn * body.q_WB).normalized();
 }
 
