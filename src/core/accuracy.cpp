@@ -221,8 +221,9 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
 }
 
 Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
+  if (areCoupled(now.scene.effects, now.bodies.count()))
+    return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
   const auto part = partOf(now, {body});
-  if (!part) return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
   Bill next = bill;
   next.tick = now.tick;
   next.body_steps = 0;
