@@ -99,7 +99,10 @@ struct Trials::Rung {
 };
 
 Trials::Trials(const Part& part, const Allowance& allowance)
-    : part_(part), allowance_(allowance), truth_(flyTruly(part, allowance.ticks, allowance.every)) {
+    : part_(part),
+      allowance_(allowance),
+      truth_(flyTruly(part, allowance.ticks, allowance.every)),
+      compared_(ticksToCompare(allowance.ticks, allowance.every)) {
   body_steps_ = kStepsOfReference * static_cast<double>(allowance.ticks * part.bodies.count());
   ActiveEffects active;
   for (const auto& effect : part.effects) {
