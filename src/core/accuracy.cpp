@@ -81,6 +81,7 @@ class Choice {
  public:
   Choice(Bill& bill, const Allowance& allowance) : bill_(bill), allowance_(allowance) {
     bill_.ticks_flown = allowance.ticks;
+    bill_.every = allowance.every;
   }
 
   /// Chooses for a part. @returns the class it went to
