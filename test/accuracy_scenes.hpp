@@ -232,4 +232,16 @@ inline std::vector<TrueScene> tenScenes(int swarm_count = 200) {
   };
 }
 
+/// One body of a scene as a scene.
+inline Scene alone(const Scene& scene, Eigen::Index body) {
+  Scene part = scene;
+  part.bodies = {scene.bodies[body]};
+  part.effects.clear();
+  for (const auto& effect : scene.effects) {
+    auto own = effect->restrictedTo({body});
+    if (own->bodyCount() > 0) part.effects.push_back(own);
+  }
+  return part;
+}
+
 }  // namespace rigid_body_sim

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "accuracy_scenes.hpp"
+#include "core/group.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -18,26 +19,14 @@ double errorOf(const TrueScene& one, const Deviation& deviation) {
   return one.is_of_positions ? deviation.position_m : deviation.attitude_rad;
 }
 
-/// One body of a scene as a scene.
-Scene alone(const Scene& scene, Eigen::Index body) {
-  Scene part = scene;
-  part.bodies = {scene.bodies[body]};
-  part.effects.clear();
-  for (const auto& effect : scene.effects) {
-    auto own = effect->restrictedTo({body});
-    if (own->bodyCount() > 0) part.effects.push_back(own);
-  }
-  return part;
-}
-
 /// By the registry: as the header of the bill defines it.
 double costOf(const Scene& scene, const Method& method) {
   const IntegratorRow& row = integratorNamed(method.integrator);
   double evaluation = 0;
   for (const auto& effect : scene.effects) evaluation += effect->cost();
-  const bool is_torque_free = scene.effects.empty() || scene.bodies[0].is_point_mass;
-  return method.substeps *
-         ((is_torque_free ? row.cost : row.forced_cost) + row.evaluations * evaluation);
+  const bool skips_turning = row.is_cheap_without_torque || row.free_flight_is_exact;
+  const bool is_cheap = scene.effects.empty() || (scene.bodies[0].is_point_mass && skips_turning);
+  return method.substeps * ((is_cheap ? row.cost : row.forced_cost) + row.evaluations * evaluation);
 }
 
 bool mayFly(const Scene& scene, const IntegratorRow& row) {
@@ -193,140 +182,6 @@ TEST(Time, DISABLED_OfTheChoiceIsNearlyTheLeast) {
       EXPECT_LE(own, 1.5 * least) << one.name << " " << budget;
     }
   }
-}
-
-// ---- Bills
-
-TEST(Bill, OfTheReadmeIsThatOfTheThruster) {
-  const std::string readme = readTextFile(PACKAGE_DIR "/README.md");
-  for (const TrueScene& one : tenScenes(1)) {
-    if (one.name != "thruster") continue;
-    const Bill bill = plan(one.scene, one.budget(1e-6));
-    std::istringstream lines(toText(bill, one.scene));
-    std::string line;
-    std::getline(lines, line);  // the budget
-    for (int i = 0; i < 5; ++i) {
-      std::getline(lines, line);
-      // Figures of rounding, of rk8 and of the doubt, may differ by the machine.
-      const bool has_rounding = line.find("e-1") != std::string::npos;
-      const std::string part = line.substr(2, has_rounding ? line.find(" leaves") : line.npos);
-      EXPECT_NE(readme.find(part.substr(0, part.find(", in doubt"))), std::string::npos) << line;
-    }
-  }
-}
-
-TEST(Bill, OfASwarmTakesAFewSecondsAndFliesNoMoreThanItsBound) {
-  const TrueScene swarm = swarmScene(200);
-  const auto start = std::chrono::steady_clock::now();
-  const Bill bill = plan(swarm.scene, swarm.budget(1e-6));
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  RecordProperty("seconds", std::to_string(time.count()));  // measured: 2.5
-  EXPECT_LE(bill.body_steps, 6e7);
-  std::vector<int> counts(200, 0);
-  for (const ClassBill& one : bill.classes) {
-    EXPECT_EQ(one.flown, one.bodies.size());
-    for (const Eigen::Index body : one.bodies) ++counts[body];
-  }
-  EXPECT_EQ(counts, std::vector<int>(200, 1));
-}
-
-TEST(Bill, OfVeryManyBodiesFliesSomeOfEachKind) {
-  TrueScene crowd = swarmScene(600);
-  crowd.scene.effects.clear();
-  Budget budget = crowd.budget(1e-6);
-  budget.over_s = 1;
-  const Bill bill = plan(crowd.scene, budget);
-  ASSERT_EQ(bill.classes.size(), 1u);
-  EXPECT_EQ(bill.classes[0].bodies.size(), 600u);
-  EXPECT_LE(bill.classes[0].flown, 256u);
-  EXPECT_GE(bill.classes[0].flown, 50u);
-  EXPECT_TRUE(contains(toText(bill, crowd.scene), {"of 600 were flown"}));
-}
-
-TEST(Bill, OfALongSpanIsExtrapolatedAndSaysSo) {
-  TrueScene swarm = swarmScene(200);
-  swarm.scene.effects.clear();
-  Budget budget = swarm.budget(1e-6);
-  budget.over_s = 120;  // 200 x 6000 ticks, twice what may be flown
-  const Bill bill = plan(swarm.scene, budget);
-  EXPECT_EQ(bill.ticks_flown, 3000);
-  EXPECT_TRUE(contains(toText(bill, swarm.scene), {"over the first 60 s", "extrapolated"}));
-}
-
-TEST(Bill, SaysWhatADigitLessOrMoreCosts) {
-  const TrueScene one = tenScenes(1)[1];  // forced
-  const Bill bill = plan(one.scene, one.budget(1e-6));
-  ASSERT_EQ(bill.classes.size(), 1u);
-  const ClassBill& bought = bill.classes[0];
-  ASSERT_TRUE(bought.runner_up && bought.digit_less && bought.digit_more);
-  EXPECT_NE(bought.runner_up->method.integrator, bought.chosen.method.integrator);
-  EXPECT_GE(bought.runner_up->cost, bought.chosen.cost);
-  EXPECT_LE(bought.runner_up->error.attitude_rad, 0.9e-6);
-  EXPECT_LE(bought.digit_less->cost, bought.chosen.cost);
-  EXPECT_LE(bought.digit_less->error.attitude_rad, 0.9e-5);
-  EXPECT_GE(bought.digit_more->cost, bought.chosen.cost);
-  EXPECT_LE(bought.digit_more->error.attitude_rad, 0.9e-7);
-  EXPECT_TRUE(contains(toText(bill, one.scene),
-                       {"craft: " + toText(bought.chosen.method), "runner-up: ", "one digit less: ",
-                        "one digit more: ", "reference: adaptive"}));
-}
-
-TEST(Bill, IsTheSameEachTime) {
-  for (const int i : {0, 1, 5, 9}) {
-    const TrueScene one = tenScenes(10)[i];
-    const auto bill = [&] { return toText(plan(one.scene, one.budget(1e-6)), one.scene); };
-    EXPECT_EQ(bill(), bill()) << one.name;
-  }
-}
-
-TEST(Bill, ThatNothingKeepsIsRefusedWithTheBestThereIs) {
-  TrueScene one = tenScenes(1)[1];
-  one.scene.accuracy = one.budget(1e-14);
-  EXPECT_TRUE(contains(refusal([&] { Simulator{one.scene}; }),
-                       {"accuracy", "1e-14 rad over 60 s", "'craft'", "the best there is, ",
-                        "leaves", "in doubt by", "step_s"}));
-}
-
-TEST(Bill, EndsEarlyWhenAsked) {
-  TrueScene swarm = swarmScene(200);
-  swarm.scene.accuracy = swarm.budget(1e-6);
-  int asked = 0;
-  EXPECT_TRUE(contains(refusal([&] { Simulator(swarm.scene, [&] { return ++asked == 3; }); }),
-                       {"ended while"}));
-  EXPECT_EQ(asked, 3);
-}
-
-/// Pulls two bodies together: cannot be divided.
-class Tether : public Effect {
- public:
-  std::string name() const override { return "tether"; }
-  std::size_t bodyCount() const override { return 2; }
-  void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
-    const Vector3d pull = 0.3 * (bodies.p_WBcm.row(1) - bodies.p_WBcm.row(0));
-    wrenches.f_W.row(0) += pull;
-    wrenches.f_W.row(1) -= pull;
-  }
-};
-
-TEST(Bill, OfCoupledBodiesHasOneMethodForAll) {
-  Scene scene = swarmScene(2).scene;
-  scene.effects = {std::make_shared<Tether>()};
-  scene.bodies[1].X_WL.translation() *= 2;
-  Budget budget;
-  budget.position_m = 1e-4;
-  budget.over_s = 10;
-  const Bill bill = plan(scene, budget);
-  ASSERT_EQ(bill.classes.size(), 1u);
-  EXPECT_EQ(bill.classes[0].bodies.size(), 2u);
-  scene.accuracy = budget;
-  Simulator simulator(scene);
-  const Trajectory truth = flyTruly(scene, 500, 1).trajectory;
-  for (int k = 1; k <= 500; ++k) {
-    simulator.step();
-    for (Eigen::Index i : {0, 1})
-      EXPECT_LE(deviation(simulator.bodies(), truth.samples[k], i).position_m, 1e-4) << k;
-  }
-  EXPECT_GT(simulator.accuracy()->samples, 5u);
 }
 
 }  // namespace

@@ -239,6 +239,50 @@ TEST_P(AfterABurst, ANewMethodKeepsTheBudget) {
 
 INSTANTIATE_TEST_SUITE_P(OfTicks, AfterABurst, testing::Values(1, 3, 10, 50));
 
+/// Pulls bodies 1 and 2 of three together; the first one is free.
+class TetherOfTheLastTwo : public Effect {
+ public:
+  std::string name() const override { return "tether"; }
+  std::size_t bodyCount() const override { return 2; }
+  void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
+    const Vector3d pull = 0.3 * (bodies.p_WBcm.row(2) - bodies.p_WBcm.row(1));
+    wrenches.f_W.row(1) += pull;
+    wrenches.f_W.row(2) -= pull;
+  }
+  std::shared_ptr<const Effect> restrictedTo(
+      const std::vector<Eigen::Index>& bodies) const override {
+    const bool is_first = bodies == std::vector<Eigen::Index>{0};
+    return is_first ? std::make_shared<None>() : nullptr;
+  }
+
+ private:
+  class None : public Effect {
+   public:
+    std::string name() const override { return "tether"; }
+    std::size_t bodyCount() const override { return 0; }
+    void addWrenches(const Bodies&, double, Wrenches&) const override {}
+  };
+};
+
+TEST(AccuracyWatch, LooksAtAndReplansTheWholeIfAnyBodyCannotBeHadAlone) {
+  for (const Eigen::Index pushed : {0, 1, 2}) {
+    Scene scene = swarmScene(3).scene;
+    scene.effects = {std::make_shared<TetherOfTheLastTwo>()};
+    scene.accuracy = pair(true).accuracy;
+    scene.accuracy->position_m = 1e-4;
+    Simulator simulator(scene);
+    run(simulator, 20);
+    ImpulseInput input = spinUp(pushed);
+    input.applied.wrench.f_F << 300, -200, 100;
+    simulator.apply(input);
+    run(simulator, 100);
+    const AccuracyState& now = *simulator.accuracy();
+    EXPECT_GT(now.samples, 1u);
+    EXPECT_EQ(now.bill.classes.size(), 1u) << pushed;
+    EXPECT_EQ(now.bill.classes[0].bodies.size(), 3u) << pushed;
+  }
+}
+
 TEST(AccuracyWatch, ForgetsItsNewPlanWithTheReset) {
   Simulator simulator(pair(true)), fresh(pair(true));
   run(simulator, 10);

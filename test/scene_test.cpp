@@ -148,6 +148,16 @@ TEST(SceneSummary, SaysInOneLineWhatIsSimulated) {
             "2 bodies; effects: gravity (1 body), gyroscopic off; integrator: exact, step 0.005 s");
 }
 
+TEST(SceneAccuracy, NamesAMisspeltKeyBeforeOneThatIsMissing) {
+  const std::string ball = "bodies: {b: {point_mass: 1}}";
+  EXPECT_TRUE(contains(
+      refusal([&] { sceneFrom("{accuracy: {atitude_rad: 1.0e-6, over_s: 60}, " + ball + "}"); }),
+      {"accuracy.atitude_rad", "did you mean 'attitude_rad'"}));
+  EXPECT_TRUE(contains(
+      refusal([&] { sceneFrom("{accuracy: {position_m: 1.0e-6, ower_s: 60}, " + ball + "}"); }),
+      {"accuracy.ower_s", "did you mean 'over_s'"}));
+}
+
 struct BadScene {
   const char* yaml;
   std::vector<std::string> parts;

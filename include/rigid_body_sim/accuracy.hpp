@@ -46,14 +46,17 @@ struct Bill {
   Tick tick = 0;          ///< the state at its beginning is what was planned from
   Tick ticks_flown = 0;   ///< less than the budget's span if that is longer than the bound allows:
                           ///< errors are then extrapolated as they grew
+  Tick every = 1;         ///< of so many ticks one is compared, at irregular intervals
   double body_steps = 0;  ///< flown to find out
   std::vector<ClassBill> classes;
   std::vector<Forecast> forecasts;  ///< of each body
 };
 
 /// A share of the budget that the measured error and the reference's doubt may take up together.
-/// Trials of up to 10,000 ticks are measured at every one, and a simulation without inputs repeats
-/// them to the bit; the rest is for what lies between the samples of longer ones.
+/// Trials of up to 10,000 ticks are compared at every one, and a simulation without inputs repeats
+/// them to the bit. Longer ones are compared at 10,000 ticks, irregularly spaced so that no
+/// motion's period hides an error, and at the last; the rest is for what lies between, but an error
+/// that is there for a few ticks only may be missed.
 constexpr double kShareOfBudget = 0.99;
 
 /// A prediction breaks the budget when it is this many times as much: the largest local error of a
@@ -68,9 +71,13 @@ double shareOf(const Budget& budget, const Deviation& error, const Deviation& do
 /// most a quarter more, by flying it with the others against flyTruly(), and groups bodies of one
 /// choice into classes. Depends on nothing but its arguments; no clock is asked.
 ///
-/// Bounded: at most 256 bodies are flown (of more, the fastest of those alike), over at most
-/// 600,000 ticks in all, with at most 6e7 steps in all and 1000 a tick; a step takes some 0.1 to 1
-/// us. A scene whose effects couple its bodies is flown as a whole and gets one method.
+/// Bounded: at most 256 bodies are flown, over at most 600,000 ticks in all, with at most 6e7 steps
+/// in all and 1000 a tick; a step takes some 0.1 to 1 us. Of more bodies the fastest of those alike
+/// are flown: alike are bodies under effects of the same names, whose |w|, largest moment by the
+/// smallest, torque and acceleration at the start are of one power of two, or of several if that
+/// makes more than 256 kinds. Bodies that differ by what only shows later (when a wrench begins,
+/// how stiff a spring is that is not drawn yet) are taken for alike, and a bill may be wrong for
+/// them. A scene whose effects couple its bodies is flown as a whole and gets one method.
 /// @throws std::invalid_argument if no method keeps it, with the best there is and what it leaves;
 /// or as Simulator.
 Bill plan(const Scene& scene, const Budget& budget);

@@ -25,7 +25,8 @@ enum class Gyroscopic { kOn, kOff };
 struct IntegratorOptions {
   Gyroscopic gyroscopic = Gyroscopic::kOn;
   double tolerance = 1e-12;  ///< error a step of 1 s may have, for methods that adapt their step:
-                             ///< of the attitude [rad] and relative to each momentum and position
+                             ///< of the attitude [rad] and relative to each momentum and position;
+                             ///< such a method's steps are common to all bodies that it steps
 };
 
 /// A method one can choose, and what it promises; test/integrator_laws_test.cpp measures each
@@ -34,17 +35,20 @@ struct IntegratorRow {
   std::string name;
   int order;  ///< of the global error, under wrenches that depend on time and pose; 0: the method
               ///< adapts its own steps to a tolerance
-  int order_under_drag;  ///< under wrenches that depend on velocities; 0: refused, as the method has
-                         ///< steps back in time, which turn dissipation into growth
-  bool free_flight_is_exact;    ///< without torque the error is rounding at any step, not of `order`
+  int order_under_drag;  ///< under wrenches that depend on velocities; 0: refused, as the method
+                         ///< has steps back in time, which turn dissipation into growth
+  bool free_flight_is_exact;  ///< without torque the error is rounding at any step, not of `order`
   bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
   bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
   bool is_reversible;           ///< a step of -h undoes a step of h, to rounding
-  double max_turn;  ///< largest |w| h [rad] of a step; beyond, errors grow without bound
-  int evaluations;  ///< of the effects, a step; 0: as many as it needs
-  double cost;      ///< time of a torque-free step of one body, in those of `semi_implicit`;
-                    ///< measured, see README
+  double max_turn;     ///< largest |w| h [rad] of a step; beyond, errors grow without bound
+  int evaluations;     ///< of the effects, a step; 0: as many as it needs
+  double cost;         ///< time of a step of one body on which no effect acts, in those of
+                       ///< `semi_implicit`; measured, see README
   double forced_cost;  ///< the same with a torque, without the time that the effects take
+  bool is_cheap_without_torque;  ///< a torque-free body costs `cost` also while effects act; else
+                                 ///< `forced_cost`, unless the method is exact in free flight and
+                                 ///< the body never turns
   std::string summary;
   std::unique_ptr<Integrator> (*make)(const IntegratorOptions&);
 };

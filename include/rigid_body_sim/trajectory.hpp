@@ -17,7 +17,8 @@ struct Trajectory {
 /// The scene with one method for all bodies, instead of what it says of methods or accuracy.
 Scene withMethod(Scene scene, const Method& method);
 
-/// Flies a scene from its start, without inputs, by one method for all bodies.
+/// Flies a scene from its start, without inputs, by one method for all bodies. With `adaptive` the
+/// steps are common to them: a body then moves as it would alone only to the tolerance.
 /// @param ticks a multiple of `every`
 /// @throws std::invalid_argument as Simulator.
 Trajectory fly(Scene scene, const Method& method, Tick ticks, Tick every);
@@ -40,7 +41,8 @@ Deviation deviation(const Trajectory& a, const Trajectory& b);
 /// A trajectory to hold others against.
 struct TrueTrajectory {
   Trajectory trajectory;
-  Deviation doubt;  ///< how far a second way to the same answer ends from it, at worst
+  Deviation doubt;  ///< how far a second way to the same answer is from it, at worst; for free
+                    ///< bodies with the rounding that both have in common
   std::string how;  ///< both ways in words
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <sstream>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -42,17 +42,47 @@ Allowance allowanceOf(const Budget& budget, double tick_s, std::size_t parts, Ei
 }
 
 /// What decides a body's price, coarsely: bodies of one kind are taken for alike.
-using Kind = std::tuple<std::vector<std::string>, int, int, int>;
-
-Kind kindOf(const Part& part) {
-  const auto octave = [](double x) {
-    return x > 0 ? std::ilogb(x) : std::numeric_limits<int>::min();
-  };
+struct Kind {
   std::vector<std::string> effects;
-  for (const auto& effect : part.effects) effects.push_back(effect->name());
+  std::vector<int> scales;  // of rate, shape and what the effects do at the start; powers of two
+
+  bool operator<(const Kind& other) const {
+    return std::tie(effects, scales) < std::tie(other.effects, other.scales);
+  }
+};
+
+/// What a body has in common with those of its kind.
+struct Features {
+  std::vector<std::string> effects;
+  std::vector<double> sizes;
+};
+
+Features featuresOf(const Part& part) {
+  Features features;
+  ActiveEffects active;
+  for (const auto& effect : part.effects) {
+    features.effects.push_back(effect->name());
+    active.add(effect.get());
+  }
   const Vector3d I = part.bodies.moments(0);
-  return {effects, octave(fastestOf(part.bodies).rate), octave(I(2) / I(0)),
-          octave((I(1) - I(0)) / I(0)) > -20};
+  const bool is_symmetric = (I(1) - I(0)) / I(0) < 0x1p-20;
+  features.sizes = {fastestOf(part.bodies).rate, I(2) / I(0), is_symmetric ? 0.0 : 1.0};
+  if (active.empty()) return features;
+  const Wrenches& wrenches =
+      active.evaluate(part.bodies, static_cast<double>(part.tick) * part.tick_s);
+  features.sizes.push_back(wrenches.t_Bcm_W.row(0).norm());
+  features.sizes.push_back(wrenches.f_W.row(0).norm() / part.bodies.mass(0));
+  return features;
+}
+
+/// @param octaves that sizes of one kind may differ by
+Kind kindOf(const Features& features, int octaves) {
+  Kind kind = {features.effects, {}};
+  for (const double size : features.sizes)
+    kind.scales.push_back(size > 0 && std::isfinite(size)
+                              ? static_cast<int>(std::floor(std::ilogb(size) / double(octaves)))
+                              : std::numeric_limits<int>::min());
+  return kind;
 }
 
 std::vector<Part> partsOf(const Situation& now) {
@@ -65,10 +95,26 @@ std::vector<Part> partsOf(const Situation& now) {
   return parts;
 }
 
+/// The octaves that bodies of one kind may differ by, so that there are no more kinds than bodies
+/// to fly.
+int octavesOfKinds(const std::vector<Features>& bodies) {
+  constexpr int kAll = 4096;  // more than a double has
+  for (int octaves = 1; octaves < kAll; octaves *= 2) {
+    std::set<Kind> kinds;
+    for (const Features& body : bodies) kinds.insert(kindOf(body, octaves));
+    if (kinds.size() <= kMostFlown) return octaves;
+  }
+  return kAll;
+}
+
 /// Those to fly of parts that are too many, by kind: the fastest ones first.
 std::map<Kind, std::vector<Part>> byKind(std::vector<Part> parts) {
+  std::vector<Features> features;
+  for (const Part& part : parts) features.push_back(featuresOf(part));
+  const int octaves = octavesOfKinds(features);
   std::map<Kind, std::vector<Part>> kinds;
-  for (Part& part : parts) kinds[kindOf(part)].push_back(std::move(part));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    kinds[kindOf(features[i], octaves)].push_back(std::move(parts[i]));
   for (auto& [kind, alike] : kinds)
     std::stable_sort(alike.begin(), alike.end(), [](const Part& a, const Part& b) {
       return fastestOf(a.bodies).rate > fastestOf(b.bodies).rate;
@@ -81,6 +127,7 @@ class Choice {
  public:
   Choice(Bill& bill, const Allowance& allowance) : bill_(bill), allowance_(allowance) {
     bill_.ticks_flown = allowance.ticks;
+    bill_.every = allowance.every;
   }
 
   /// Chooses for a part. @returns the class it went to
@@ -162,17 +209,8 @@ class Choice {
 /// @throws std::invalid_argument naming the body, the best there is and what it leaves, if the bill
 /// does not keep its budget
 void requireKept(const Bill& bill, const Scene& scene) {
-  for (const ClassBill& one : bill.classes) {
-    if (one.keeps_budget) continue;
-    std::ostringstream why;
-    why << "accuracy: " << summary(bill.budget) << " cannot be kept for body '"
-        << scene.bodies[one.hardest].name << "'; the best there is, " << toText(one.chosen.method)
-        << ", leaves " << one.chosen.error.attitude_rad << " rad and "
-        << one.chosen.error.position_m << " m, in doubt by " << one.doubt.attitude_rad
-        << " rad and " << one.doubt.position_m
-        << " m; ask for less, for a shorter span, or take a smaller step_s";
-    throw std::invalid_argument(why.str());
-  }
+  for (const ClassBill& one : bill.classes)
+    if (!one.keeps_budget) throw std::invalid_argument(refusal(bill.budget, one, scene));
 }
 
 }  // namespace
@@ -221,8 +259,9 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
 }
 
 Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
+  if (areCoupled(now.scene.effects, now.bodies.count()))
+    return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
   const auto part = partOf(now, {body});
-  if (!part) return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
   Bill next = bill;
   next.tick = now.tick;
   next.body_steps = 0;

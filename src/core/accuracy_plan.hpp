@@ -17,4 +17,8 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
 /// where nothing keeps the budget.
 Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body);
 
+/// Why there is no plan: the budget, the body, the best there is and what it leaves, and what to
+/// do.
+std::string refusal(const Budget& budget, const ClassBill& one, const Scene& scene);
+
 }  // namespace rigid_body_sim

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/accuracy_plan.hpp"
 #include "rigid_body_sim/accuracy.hpp"
 
 namespace rigid_body_sim {
@@ -17,21 +18,42 @@ std::string namesOf(const std::vector<Eigen::Index>& bodies, const Scene& scene)
   return names;
 }
 
-/// What is measured and what the reference is in doubt by go together.
-std::string toText(const Offer& offer, const Deviation& doubt) {
+/// What the budget is of: `3e-05 rad, 2e-06 m`, or one of these.
+std::string toText(const Deviation& deviation, const Budget& budget) {
   std::ostringstream text;
   text.precision(2);
-  text << toText(offer.method) << " leaves at most "
-       << offer.error.attitude_rad + doubt.attitude_rad << " rad, "
-       << offer.error.position_m + doubt.position_m << " m, at ";
-  text.precision(3);
-  text << offer.cost << " semi_implicit steps a tick";
+  const bool has_attitude = std::isfinite(budget.attitude_rad);
+  if (has_attitude) text << deviation.attitude_rad << " rad";
+  if (std::isfinite(budget.position_m))
+    text << (has_attitude ? ", " : "") << deviation.position_m << " m";
   return text.str();
+}
+
+/// What is measured and what the reference is in doubt by go together.
+std::string leftBy(const Offer& offer, const Deviation& doubt, const Budget& budget) {
+  return "leaves at most " + toText({offer.error.attitude_rad + doubt.attitude_rad,
+                                     offer.error.position_m + doubt.position_m},
+                                    budget);
+}
+
+std::string toText(const Offer& offer, const Deviation& doubt, const Budget& budget) {
+  std::ostringstream text;
+  text.precision(3);
+  text << toText(offer.method) << " " << leftBy(offer, doubt, budget) << ", at " << offer.cost
+       << " semi_implicit steps a tick";
+  return text.str();
+}
+
+/// What else there is to know of the choice.
+std::string remark(const ClassBill& one) {
+  if (!one.keeps_budget) return "; THIS BREAKS THE BUDGET, and there is nothing better";
+  if (!one.runner_up || one.runner_up->cost >= one.chosen.cost) return {};
+  return "; dearer than the runner-up, but it leaves less for at most a quarter more";
 }
 
 /// Another offer beside the chosen one.
 std::string comparison(const std::optional<Offer>& offer, const ClassBill& one,
-                       const std::string& none) {
+                       const Budget& budget, const std::string& none) {
   if (!offer) return none;
   const Offer& chosen = one.chosen;
   std::ostringstream text;
@@ -39,7 +61,8 @@ std::string comparison(const std::optional<Offer>& offer, const ClassBill& one,
   if (offer->method == chosen.method)
     text << "the same";
   else
-    text << toText(*offer, one.doubt) << ", " << offer->cost / chosen.cost << " times the price";
+    text << toText(*offer, one.doubt, budget) << ", " << offer->cost / chosen.cost
+         << " times the price";
   return text.str();
 }
 
@@ -68,25 +91,36 @@ std::string toText(const SpentError& spent, const Scene& scene) {
   return text.str();
 }
 
+std::string refusal(const Budget& budget, const ClassBill& one, const Scene& scene) {
+  // What exact leaves is the rounding of its start: steps have no part in it.
+  const bool helps_step = one.chosen.method.integrator != "exact";
+  return "accuracy: " + summary(budget) + " cannot be kept for body '" +
+         scene.bodies[one.hardest].name + "'; the best there is, " + toText(one.chosen.method) +
+         ", " + leftBy(one.chosen, one.doubt, budget) +
+         (helps_step ? "; ask for less, for a shorter span, or take a smaller step_s"
+                     : "; ask for less, or for a shorter span");
+}
+
 std::string toText(const Bill& bill, const Scene& scene) {
   std::ostringstream text;
   text.precision(3);
   text << "accuracy: " << summary(bill.budget) << ", from tick " << bill.tick << "\n";
   for (const ClassBill& one : bill.classes) {
-    text << "  " << namesOf(one.bodies, scene) << ": " << toText(one.chosen, one.doubt)
-         << (one.keeps_budget ? "" : "; THIS BREAKS THE BUDGET, and there is nothing better")
-         << "\n";
+    text << "  " << namesOf(one.bodies, scene) << ": " << toText(one.chosen, one.doubt, bill.budget)
+         << remark(one) << "\n";
     if (one.bodies.size() > 1)
       text << "    (the figures are those of " << scene.bodies[one.hardest].name << "; "
            << one.flown << " of " << one.bodies.size() << " were flown)\n";
-    text << "    runner-up: " << comparison(one.runner_up, one, "none found") << "\n"
-         << "    one digit less: " << comparison(one.digit_less, one, "cannot be had")
-         << "\n    one digit more: " << comparison(one.digit_more, one, "cannot be had")
-         << "\n    reference: " << one.reference << ", in doubt by " << one.doubt.attitude_rad
-         << " rad, " << one.doubt.position_m << " m\n";
+    text << "    runner-up: " << comparison(one.runner_up, one, bill.budget, "none found") << "\n"
+         << "    one digit less: " << comparison(one.digit_less, one, bill.budget, "cannot be had")
+         << "\n    one digit more: "
+         << comparison(one.digit_more, one, bill.budget, "cannot be had")
+         << "\n    reference: " << one.reference << ", in doubt by "
+         << toText(one.doubt, bill.budget) << "\n";
   }
   const double flown_s = static_cast<double>(bill.ticks_flown) * scene.step_s();
-  text << "  found by flying " << bill.body_steps << " steps";
+  text << "  found by flying " << bill.body_steps << " steps, compared at "
+       << (bill.every == 1 ? "every tick" : "one in " + std::to_string(bill.every) + " ticks");
   if (flown_s < bill.budget.over_s)
     text << " over the first " << flown_s
          << " s; errors over the rest are extrapolated as they grew, which chaos may belie";

@@ -11,12 +11,12 @@ namespace {
 
 constexpr Tick kTicksBetweenSamples = 30;  // of one body
 
-bool isCoupled(const Scene& scene) { return !restrictedTo(scene.effects, {0}).has_value(); }
-
 }  // namespace
 
 AccuracyWatch::AccuracyWatch(Bill bill, const Scene& scene)
-    : first_(bill), tick_s_(scene.step_s()), is_coupled_(isCoupled(scene)) {
+    : first_(bill),
+      tick_s_(scene.step_s()),
+      is_coupled_(areCoupled(scene.effects, static_cast<Eigen::Index>(scene.bodies.size()))) {
   const auto count = static_cast<Tick>(scene.bodies.size());
   apart_ =
       is_coupled_ ? kTicksBetweenSamples * count : std::max<Tick>(1, kTicksBetweenSamples / count);

@@ -62,6 +62,12 @@ std::optional<EffectList> restrictedTo(const EffectList& effects,
   return restricted;
 }
 
+bool areCoupled(const EffectList& effects, Eigen::Index count) {
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!restrictedTo(effects, {i})) return true;
+  return false;
+}
+
 Bodies rowsOf(const Bodies& bodies, const std::vector<Eigen::Index>& indices) {
   Bodies rows(static_cast<Eigen::Index>(indices.size()));
   for (std::size_t k = 0; k < indices.size(); ++k) {

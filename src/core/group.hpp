@@ -18,6 +18,10 @@ using EffectList = std::vector<std::shared_ptr<const Effect>>;
 std::optional<EffectList> restrictedTo(const EffectList& effects,
                                        const std::vector<Eigen::Index>& bodies);
 
+/// Whether an effect cannot be divided for some of the `count` bodies: then they are planned for,
+/// and looked at, as a whole.
+bool areCoupled(const EffectList& effects, Eigen::Index count);
+
 /// The rows of `bodies` with these indices.
 Bodies rowsOf(const Bodies& bodies, const std::vector<Eigen::Index>& indices);
 
@@ -38,7 +42,8 @@ std::string objection(const Method& method, double rate, double tick_s);
 std::string caution(const Method& method, const EffectList& effects);
 
 /// Bodies that one method steps, under the effects and the held wrenches that act on them. Each
-/// moves as it would alone, to the bit.
+/// moves as it would alone, to the bit; but not with `adaptive`, whose steps are common to all of
+/// them: there, to its tolerance.
 class Group {
  public:
   /// @param effects on these bodies alone

@@ -1,5 +1,6 @@
 #include "core/part.hpp"
 
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -49,19 +50,33 @@ void Flight::step() {
   ++tick_;
 }
 
+std::vector<Tick> ticksToCompare(Tick ticks, Tick every) {
+  // Weyl's sequence: the multiples of the golden ratio, modulo one, in units of 2^-32.
+  constexpr std::uint64_t kGoldenRatio = 2654435769;
+  std::vector<Tick> chosen = {0};
+  for (Tick start = 0; start < ticks; start += every) {
+    const std::uint64_t place = static_cast<std::uint32_t>(chosen.size() * kGoldenRatio);
+    chosen.push_back(start + 1 +
+                     static_cast<Tick>((place * static_cast<std::uint64_t>(every)) >> 32));
+  }
+  if (ticks > 0) chosen.back() = ticks;
+  return chosen;
+}
+
 Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every) {
   Flight flight(part, method);
-  Trajectory trajectory = {every, {flight.bodies()}};
-  for (Tick k = 1; k <= ticks; ++k) {
-    flight.step();
-    if (k % every == 0) trajectory.samples.push_back(flight.bodies());
+  Trajectory trajectory = {every, {}};
+  Tick flown = 0;
+  for (const Tick tick : ticksToCompare(ticks, every)) {
+    for (; flown < tick; ++flown) flight.step();
+    trajectory.samples.push_back(flight.bodies());
   }
   return trajectory;
 }
 
 TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every) {
   return truest([&](const Method& method) { return fly(part, method, ticks, every); },
-                part.effects.empty());
+                part.effects.empty(), static_cast<double>(ticks) * part.tick_s);
 }
 
 }  // namespace rigid_body_sim

@@ -58,12 +58,19 @@ class Flight {
   double unasked_ = 0;  // steps since it was asked
 };
 
+/// The ticks at which flights are compared: 0, one in each stretch of `every`, and the last one,
+/// `ticks`, a multiple of `every`. Where in its stretch a tick is varies irregularly: a comb would
+/// not see errors that come back with its own period.
+std::vector<Tick> ticksToCompare(Tick ticks, Tick every);
+
+/// Sampled at ticksToCompare().
 Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every);
 
-/// As flyTruly() of a scene.
+/// As flyTruly() of a scene, but sampled at ticksToCompare().
 TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every);
 
-/// The truest of what `fly` gives; `is_free` if nothing acts on the bodies.
-TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free);
+/// The truest of what `fly` gives for `time_s` [s]; `is_free` if nothing acts on the bodies.
+TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free,
+                      double time_s);
 
 }  // namespace rigid_body_sim

@@ -43,6 +43,8 @@ std::optional<Budget> readBudget(const Parameters& parameters) {
     if (parameters.has(key))
       parameters.refuse(key, "`accuracy` chooses the method; give one of the two");
   const Parameters block = parameters.child("accuracy");
+  for (const char* key : {"attitude_rad", "position_m", "over_s", "replan"}) block.has(key);
+  block.refuseUnknown();  // before what is missing: it may be there, but misspelt
   if (!block.has("attitude_rad") && !block.has("position_m"))
     parameters.refuse("accuracy", "it takes attitude_rad, position_m or both");
   Budget budget;
@@ -51,7 +53,6 @@ std::optional<Budget> readBudget(const Parameters& parameters) {
   if (block.has("position_m")) budget.position_m = block.number("position_m", positive("m"));
   budget.over_s = block.number("over_s", {0, 1e9, "s", true});
   budget.replan = block.boolean("replan", false);
-  block.refuseUnknown();
   return budget;
 }
 

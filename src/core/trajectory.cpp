@@ -13,6 +13,10 @@
 namespace rigid_body_sim {
 namespace {
 
+/// In epsilons of the angle turned. Measured over 200 bodies, a minute each: up to 4.0, and 8.4 for
+/// those that turn within a hundredth of their middle axis, where small differences grow.
+constexpr double kRoundingOfStart = 16;
+
 double larger(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
   return std::max(a, b);
@@ -21,6 +25,14 @@ double larger(double a, double b) {
 TrueTrajectory comparedWith(Trajectory best, const Trajectory& other, std::string how) {
   const Deviation doubt = deviation(best, other);
   return {std::move(best), doubt, std::move(how)};
+}
+
+/// What two flights of free bodies do not tell by their difference [rad]: the momentum in body axes
+/// that both start from is rounded, and with it the rates that they turn at for `time_s`.
+double commonRounding(const Trajectory& trajectory, double time_s) {
+  double rate = 0;
+  for (const Bodies& sample : trajectory.samples) rate = std::max(rate, fastestOf(sample).rate);
+  return kRoundingOfStart * std::numeric_limits<double>::epsilon() * (1 + rate * time_s);
 }
 
 /// Doubt in one number: a radian counts as much as a metre.
@@ -69,10 +81,14 @@ Deviation deviation(const Trajectory& a, const Trajectory& b) {
   return worst;
 }
 
-TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free) {
+TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free,
+                      double time_s) {
   TrueTrajectory best =
       comparedWith(fly({"exact"}), fly({"exact", 2}), "exact, against itself in half steps");
-  if (is_free) return best;
+  if (is_free) {
+    best.doubt.attitude_rad += commonRounding(best.trajectory, time_s);
+    return best;
+  }
   // Half ticks, not another tolerance: one step a tick may do for both.
   TrueTrajectory adaptive =
       comparedWith(fly({"adaptive", 1, 1e-14}), fly({"adaptive", 2, 1e-14}),
@@ -82,7 +98,7 @@ TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool 
 
 TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every) {
   return truest([&](const Method& method) { return fly(scene, method, ticks, every); },
-                scene.effects.empty());
+                scene.effects.empty(), static_cast<double>(ticks) * scene.step_s());
 }
 
 }  // namespace rigid_body_sim

@@ -99,7 +99,10 @@ struct Trials::Rung {
 };
 
 Trials::Trials(const Part& part, const Allowance& allowance)
-    : part_(part), allowance_(allowance), truth_(flyTruly(part, allowance.ticks, allowance.every)) {
+    : part_(part),
+      allowance_(allowance),
+      truth_(flyTruly(part, allowance.ticks, allowance.every)),
+      compared_(ticksToCompare(allowance.ticks, allowance.every)) {
   body_steps_ = kStepsOfReference * static_cast<double>(allowance.ticks * part.bodies.count());
   ActiveEffects active;
   for (const auto& effect : part.effects) {
@@ -108,20 +111,22 @@ Trials::Trials(const Part& part, const Allowance& allowance)
     effects_cost_ += effect->cost() * static_cast<double>(effect->bodyCount()) /
                      static_cast<double>(part.bodies.count());
   }
-  Tick tick = part.tick;
-  for (const Bodies& sample : truth_.trajectory.samples) {
+  for (std::size_t k = 0; k < compared_.size(); ++k) {
+    const Bodies& sample = truth_.trajectory.samples[k];
+    const double time_s = static_cast<double>(part.tick + compared_[k]) * part.tick_s;
     rate_ = std::max(rate_, fastestOf(sample).rate);
     if (is_torque_free_ && !active.empty())
-      is_torque_free_ =
-          active.evaluate(sample, static_cast<double>(tick) * part.tick_s).t_Bcm_W.isZero(0);
-    tick += allowance.every;
+      is_torque_free_ = active.evaluate(sample, time_s).t_Bcm_W.isZero(0);
   }
 }
 
 double Trials::costOf(const Method& method) const {
   const IntegratorRow& row = integratorNamed(method.integrator);
+  const bool skips_turning = row.free_flight_is_exact && rate_ == 0;
+  const bool is_cheap =
+      part_.effects.empty() || (is_torque_free_ && (row.is_cheap_without_torque || skips_turning));
   return method.substeps *
-         ((is_torque_free_ ? row.cost : row.forced_cost) + row.evaluations * effects_cost_);
+         ((is_cheap ? row.cost : row.forced_cost) + row.evaluations * effects_cost_);
 }
 
 double Trials::stepsOf(const Method& method) const {
@@ -144,7 +149,7 @@ Deviation Trials::errorOf(const Method& method) {
   Deviation whole, half;
   const std::vector<Bodies>& truth = truth_.trajectory.samples;
   for (std::size_t k = 1; k < truth.size(); ++k) {
-    for (Tick i = 0; i < allowance_.every; ++i) flight.step();
+    while (flight.tick() < part_.tick + compared_[k]) flight.step();
     for (Eigen::Index i = 0; i < truth[k].count(); ++i)
       whole = worse(whole, deviation(flight.bodies(), truth[k], i));
     if (2 * k <= truth.size()) half = whole;

@@ -14,7 +14,7 @@ namespace rigid_body_sim {
 /// How long and how much the trials of a part may fly.
 struct Allowance {
   Tick ticks = 0;    ///< of a flight
-  Tick every = 1;    ///< sample
+  Tick every = 1;    ///< of these one is compared, see ticksToCompare()
   double span = 1;   ///< the budget's ticks by those flown; more than one: extrapolated
   double steps = 0;  ///< of all flights together, times bodies
 };
@@ -54,7 +54,8 @@ class Trials {
   Part part_;
   Allowance allowance_;
   TrueTrajectory truth_;
-  double rate_ = 0;  // the largest |w| on the way [rad/s]
+  std::vector<Tick> compared_;  // ticks
+  double rate_ = 0;             // the largest |w| on the way [rad/s]
   bool is_torque_free_ = true;
   bool has_drag_ = false;
   double effects_cost_ = 0;  // of an evaluation, a body
