@@ -62,6 +62,21 @@ TEST(Trials, OfFreeBodiesHaveATruthThatIsNoFurtherOffThanItsDoubt) {
   RecordProperty("error_by_doubt", std::to_string(worst));
 }
 
+TEST(Trials, AreComparedInEveryPhaseOfAnyPeriod) {
+  EXPECT_EQ(ticksToCompare(4, 1), (std::vector<Tick>{0, 1, 2, 3, 4}));
+  const std::vector<Tick> ticks = ticksToCompare(100'000, 10);
+  ASSERT_EQ(ticks.size(), 10'001u);
+  EXPECT_EQ(ticks.back(), 100'000);
+  for (const Tick period : {2, 5, 10, 20, 7}) {
+    std::vector<int> counts(static_cast<std::size_t>(period), 0);
+    for (std::size_t k = 1; k < ticks.size(); ++k) {
+      EXPECT_EQ((ticks[k] - 1) / 10, static_cast<Tick>(k) - 1) << "one in each ten";
+      ++counts[static_cast<std::size_t>(ticks[k] % period)];
+    }
+    for (const int count : counts) EXPECT_GE(count, 5000 / period) << period;
+  }
+}
+
 TEST(Trials, EndWithTheirAllowance) {
   const TrueScene one = tenScenes(1)[1];  // forced
   const Simulator simulator(one.scene);
@@ -203,8 +218,8 @@ TEST(Trials, OfferNoMoreSubstepsThanItTakes) {
     if (one.scene.effects.empty()) continue;
     const Simulator simulator(one.scene);
     const Trajectory truth = flyTruly(one.scene, 500, 1).trajectory;
-    Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
-    for (const double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+    for (double error = 1e-2; error > 1e-9; error /= 1.7) {
+      Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
       const auto offer = trials.choose(one.budget(error));
       ASSERT_TRUE(offer);
       Method fewer = offer->method;
