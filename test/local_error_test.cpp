@@ -81,5 +81,41 @@ TEST(LocalError, OfASpinBeyondItsBoundIsStillFinite) {
   EXPECT_GE(sample.estimate, sample.truth / 3);
 }
 
+TEST(LocalError, OfRoundingIsTwentyUlpsOfWhatIsRounded) {
+  Bodies bodies(1);
+  bodies.mass(0) = 2;
+  bodies.I_BBcm_B.row(0) << 1, 2, 2.5;
+  BodyState state;
+  state.p_WBcm << 3, 4, 0;
+  bodies.setState(0, state);
+  EXPECT_DOUBLE_EQ(roundingOfTick(bodies, 0.1).attitude_rad, 20 * kEps);
+  EXPECT_DOUBLE_EQ(roundingOfTick(bodies, 0.1).position_m, 20 * kEps * 5);
+  state.P_WB << 0, 0, 40;
+  state.L_WBcm_W << 0, 30, 0;
+  bodies.setState(0, state);
+  EXPECT_DOUBLE_EQ(roundingOfTick(bodies, 0.1).attitude_rad, 20 * kEps * 4);
+  EXPECT_DOUBLE_EQ(roundingOfTick(bodies, 0.1).position_m, 20 * kEps * 7);
+}
+
+/// Counts how often it is asked.
+class Counter : public Effect {
+ public:
+  std::string name() const override { return "counter"; }
+  std::size_t bodyCount() const override { return 1; }
+  void addWrenches(const Bodies&, double, Wrenches&) const override { ++count; }
+  mutable int count = 0;
+};
+
+TEST(LocalError, TakesABoundedNumberOfEvaluations) {
+  const auto counter = std::make_shared<Counter>();
+  Scene scene = sceneOf(bodyOf("top", {1, 2, 2.5}, {3e6, -8e6, 5e6}), "exact");
+  const Simulator simulator(scene);
+  Part part = wholeOf({scene, simulator.bodies(), {}, 0});
+  part.effects = {counter};
+  flyTickTruly(part, {"exact"});
+  EXPECT_LE(counter->count, kMostEvaluations);
+  EXPECT_GT(counter->count, 0);
+}
+
 }  // namespace
 }  // namespace rigid_body_sim

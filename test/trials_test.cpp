@@ -62,6 +62,21 @@ TEST(Trials, OfFreeBodiesHaveATruthThatIsNoFurtherOffThanItsDoubt) {
   RecordProperty("error_by_doubt", std::to_string(worst));
 }
 
+TEST(Trials, AreComparedInEveryPhaseOfAnyPeriod) {
+  EXPECT_EQ(ticksToCompare(4, 1), (std::vector<Tick>{0, 1, 2, 3, 4}));
+  const std::vector<Tick> ticks = ticksToCompare(100'000, 10);
+  ASSERT_EQ(ticks.size(), 10'001u);
+  EXPECT_EQ(ticks.back(), 100'000);
+  for (const Tick period : {2, 5, 10, 20, 7}) {
+    std::vector<int> counts(static_cast<std::size_t>(period), 0);
+    for (std::size_t k = 1; k < ticks.size(); ++k) {
+      EXPECT_EQ((ticks[k] - 1) / 10, static_cast<Tick>(k) - 1) << "one in each ten";
+      ++counts[static_cast<std::size_t>(ticks[k] % period)];
+    }
+    for (const int count : counts) EXPECT_GE(count, 5000 / period) << period;
+  }
+}
+
 TEST(Trials, EndWithTheirAllowance) {
   const TrueScene one = tenScenes(1)[1];  // forced
   const Simulator simulator(one.scene);
@@ -123,6 +138,101 @@ TEST(Trials, PriceATorqueFreeBodyUnderAForceByWhatItsMethodCostsThen) {
     // Turning, exact4 costs 29.5; it was taken for 4.7.
     EXPECT_TRUE(!turns || other->method.integrator != "exact4");
   }
+}
+
+Budget attitudeBudget(double attitude_rad, double over_s) {
+  Budget budget;
+  budget.attitude_rad = attitude_rad;
+  budget.over_s = over_s;
+  return budget;
+}
+
+TEST(Trials, TakeWhatLeavesLessForLittleMore) {
+  const TrueScene one = freeScene("slow", bodyOf("slow", {1, 1.5, 2.2}, {2e-6, -1e-6, 3e-6}));
+  const Simulator simulator(one.scene);
+  Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
+  const auto chosen = trials.choose(attitudeBudget(1e-3, 10));
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->method.integrator, "exact");
+  EXPECT_GT(chosen->cost, integratorNamed("semi_implicit").cost);  // which keeps it, too
+  const auto other = trials.choose(attitudeBudget(1e-3, 10), "exact");
+  ASSERT_TRUE(other);
+  EXPECT_LT(other->cost, chosen->cost);
+  EXPECT_LE(chosen->cost, 1.25 * other->cost);
+}
+
+TEST(Trials, ExtrapolateTheDoubtAsErrors) {
+  const TrueScene one = tenScenes(1)[1];
+  const Simulator simulator(one.scene);
+  const Trials whole(partOf(one, simulator), {500, 1, 1, 1e9});
+  const Trials third(partOf(one, simulator), {500, 1, 3, 1e9});
+  EXPECT_GT(whole.doubt().attitude_rad, 0);
+  EXPECT_DOUBLE_EQ(third.doubt().attitude_rad, 9 * whole.doubt().attitude_rad);
+  EXPECT_DOUBLE_EQ(third.doubt().position_m, 9 * whole.doubt().position_m);
+}
+
+TEST(Trials, DoubtTheirTruthByTheDifferenceOfTwoWays) {
+  const TrueScene one = tenScenes(1)[1];
+  const Deviation apart = deviation(fly(one.scene, {"adaptive", 1, 1e-14}, 500, 1),
+                                    fly(one.scene, {"adaptive", 2, 1e-14}, 500, 1));
+  EXPECT_EQ(flyTruly(one.scene, 500, 1).doubt.attitude_rad, apart.attitude_rad);
+}
+
+TEST(Trials, OfferNoMethodThatTurnsTooFarInAStepNowOrLater) {
+  // About one axis rk4 would be right beyond a radian a step, too.
+  const Drag drag = {0.1, 0.05, 2, {1, 1, 1}};
+  const VaryingTorque torque = {{0, 0, 80}, {1, 1, 1}};
+  for (const TrueScene& one :
+       {forcedScene("fast", bodyOf("ball", {1, 1, 1}, {0, 0, 60}), drag, true),
+        forcedScene("faster and faster", bodyOf("ball", {1, 1, 1}, {0, 0, 0}), torque)}) {
+    const Simulator simulator(one.scene);
+    Trials trials(partOf(one, simulator), {100, 1, 1, 1e9});
+    const auto offer = trials.choose(attitudeBudget(1e-5, 2));
+    ASSERT_TRUE(offer);
+    EXPECT_EQ(offer->method, (Method{"rk4", 2})) << one.name << " " << toText(offer->method);
+  }
+}
+
+/// None at the beginning.
+struct LateTorque {
+  template <class S>
+  Pushed<S> operator()(S time_s, const Moving<S>&) const {
+    return {Vector3<S>::Zero(), Vector3<S>(time_s * Vector3<S>(S(0.1), S(-0.2), S(0.1)))};
+  }
+};
+
+TEST(Trials, TakeABodyForTorqueFreeOnlyIfItStaysSo) {
+  const TrueScene one =
+      forcedScene("late", bodyOf("body", {1, 1.5, 2.2}, {0.9, -1.3, 0.7}), LateTorque());
+  const Simulator simulator(one.scene);
+  Trials trials(partOf(one, simulator), {100, 1, 1, 1e9});
+  const auto offer = trials.choose(attitudeBudget(1e-1, 2));
+  ASSERT_TRUE(offer);
+  const IntegratorRow& row = integratorNamed(offer->method.integrator);
+  EXPECT_DOUBLE_EQ(offer->cost, offer->method.substeps * (row.forced_cost + 0.5 * row.evaluations));
+}
+
+TEST(Trials, OfferNoMoreSubstepsThanItTakes) {
+  int above_one = 0;
+  for (const TrueScene& one : tenScenes(1)) {
+    if (one.scene.effects.empty()) continue;
+    const Simulator simulator(one.scene);
+    const Trajectory truth = flyTruly(one.scene, 500, 1).trajectory;
+    for (double error = 1e-2; error > 1e-9; error /= 1.7) {
+      Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
+      const auto offer = trials.choose(one.budget(error));
+      ASSERT_TRUE(offer);
+      Method fewer = offer->method;
+      if (--fewer.substeps < 1 || fewer.substeps > 7) continue;
+      const double rate = fastestOf(simulator.bodies()).rate;
+      if (!objection(fewer, rate, 0.02).empty()) continue;
+      ++above_one;
+      const Deviation left = deviation(fly(one.scene, fewer, 500, 1), truth);
+      EXPECT_GT(one.is_of_positions ? left.position_m : left.attitude_rad, 0.9 * error)
+          << one.name << " " << toText(offer->method);
+    }
+  }
+  EXPECT_GE(above_one, 5);
 }
 
 TEST(Trials, ForecastAnAmplificationThatGivesTheErrorBack) {
