@@ -1,28 +1,7 @@
 #include "core/group.hpp"
 
-#include <cstdlib>
-
 #include "accuracy_scenes.hpp"
-
-// Every allocation of the process: Eigen's do not use operator new. Sanitizers bring a malloc of
-// their own.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define HAS_OWN_MALLOC
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define HAS_OWN_MALLOC
-#endif
-#if defined(__GLIBC__) && !defined(HAS_OWN_MALLOC)
-#define COUNTS_ALLOCATIONS
-static long allocation_count = 0;
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  ++allocation_count;
-  return __libc_malloc(size);
-}
-#endif
+#include "allocation_count.hpp"
 
 namespace rigid_body_sim {
 namespace {

@@ -2,29 +2,9 @@
 #include "integrator_laws.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
+#include "allocation_count.hpp"
 #include "reference/free_rotation.hpp"
-
-// Every allocation of the process goes through here: Eigen's do not use operator new.
-// Sanitizers bring a malloc of their own: gcc says so by macros, clang by features.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define HAS_OWN_MALLOC
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define HAS_OWN_MALLOC
-#endif
-#if defined(__GLIBC__) && !defined(HAS_OWN_MALLOC)
-#define COUNTS_ALLOCATIONS
-static long allocation_count = 0;
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  ++allocation_count;
-  return __libc_malloc(size);
-}
-#endif
 
 namespace rigid_body_sim {
 namespace {
