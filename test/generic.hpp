@@ -137,4 +137,12 @@ inline testing::AssertionResult contains(const std::string& text,
   return testing::AssertionSuccess();
 }
 
+/// A scene from the text of its file; an unknown key is refused.
+inline Scene sceneFrom(const std::string& yaml) {
+  const Parameters parameters(readYaml(yaml, "test.yaml"), "");
+  Scene scene = readScene(parameters, {});
+  parameters.refuseUnknown();
+  return scene;
+}
+
 }  // namespace rigid_body_sim

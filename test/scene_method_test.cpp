@@ -4,13 +4,6 @@
 namespace rigid_body_sim {
 namespace {
 
-Scene sceneFrom(const std::string& yaml) {
-  const Parameters parameters(readYaml(yaml, "test.yaml"), "");
-  Scene scene = readScene(parameters, {});
-  parameters.refuseUnknown();
-  return scene;
-}
-
 TEST(SceneMethod, TakesSubstepsAndTheToleranceOfTheAdaptiveMethod) {
   const std::string bodies = ", bodies: {b: {point_mass: 1}}}";
   EXPECT_EQ(sceneFrom("{substeps: 1" + bodies).substeps, 1);

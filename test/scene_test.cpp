@@ -10,13 +10,6 @@
 namespace rigid_body_sim {
 namespace {
 
-Scene sceneFrom(const std::string& yaml) {
-  const Parameters parameters(readYaml(yaml, "test.yaml"), "");
-  Scene scene = readScene(parameters, {});
-  parameters.refuseUnknown();
-  return scene;
-}
-
 SceneBody bodyFrom(const std::string& block) {
   return sceneFrom("bodies: {b: {" + block + "}}").bodies.at(0);
 }
