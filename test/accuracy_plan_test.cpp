@@ -246,8 +246,8 @@ class Tether : public Effect {
  public:
   std::string name() const override { return "tether"; }
   std::size_t bodyCount() const override { return 2; }
-  void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
-    const Vector3d pull = 0.3 * (bodies.p_WBcm.row(1) - bodies.p_WBcm.row(0));
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+    const Vector3d pull = 0.3 * (now.bodies().p_WBcm.row(1) - now.bodies().p_WBcm.row(0));
     wrenches.f_W.row(0) += pull;
     wrenches.f_W.row(1) -= pull;
   }

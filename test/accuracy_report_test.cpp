@@ -147,7 +147,7 @@ TEST(BestKnown, KeepsToItselfWhatItCannotCheck) {
    public:
     std::string name() const override { return "pair"; }
     std::size_t bodyCount() const override { return 1; }
-    void addWrenches(const Bodies&, double, Wrenches&) const override {}
+    void addWrenches(const Instant&, Wrenches&) const override {}
   };
   Scene scene = sceneOfCase("sphere");
   scene.bodies.push_back(genericSceneBody("other"));
@@ -180,8 +180,8 @@ TEST(Refusals, StepsBackInTimeAreRefusedUnderDrag) {
     std::string name() const override { return "drag"; }
     std::size_t bodyCount() const override { return 1; }
     bool dependsOnVelocity() const override { return true; }
-    void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
-      wrenches.t_Bcm_W -= 0.01 * bodies.L_WBcm_W;
+    void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+      wrenches.t_Bcm_W -= 0.01 * now.bodies().L_WBcm_W;
     }
   };
   Plan plan = planOf("tumbling_stone", 1);

@@ -110,11 +110,11 @@ class LawEffect : public Effect {
   std::size_t bodyCount() const override { return members_.size(); }
   bool dependsOnVelocity() const override { return depends_on_velocity_; }
 
-  void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const override {
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     for (const auto& [i, law] : members_) {
-      const BodyState body = bodies.state(i);
+      const BodyState body = now.bodies().state(i);
       const Pushed<double> push =
-          law(time_s, Moving<double>{body.p_WBcm, body.q_WB, body.P_WB, body.L_WBcm_W});
+          law(now.time_s(), Moving<double>{body.p_WBcm, body.q_WB, body.P_WB, body.L_WBcm_W});
       wrenches.f_W.row(i) += push.f;
       wrenches.t_Bcm_W.row(i) += push.t;
     }

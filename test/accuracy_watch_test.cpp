@@ -244,8 +244,8 @@ class TetherOfTheLastTwo : public Effect {
  public:
   std::string name() const override { return "tether"; }
   std::size_t bodyCount() const override { return 2; }
-  void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
-    const Vector3d pull = 0.3 * (bodies.p_WBcm.row(2) - bodies.p_WBcm.row(1));
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+    const Vector3d pull = 0.3 * (now.bodies().p_WBcm.row(2) - now.bodies().p_WBcm.row(1));
     wrenches.f_W.row(1) += pull;
     wrenches.f_W.row(2) -= pull;
   }
@@ -260,7 +260,7 @@ class TetherOfTheLastTwo : public Effect {
    public:
     std::string name() const override { return "tether"; }
     std::size_t bodyCount() const override { return 0; }
-    void addWrenches(const Bodies&, double, Wrenches&) const override {}
+    void addWrenches(const Instant&, Wrenches&) const override {}
   };
 };
 

@@ -13,7 +13,7 @@ class Torque : public Effect {
  public:
   std::string name() const override { return "torque"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies&, double, Wrenches& wrenches) const override {
+  void addWrenches(const Instant&, Wrenches& wrenches) const override {
     wrenches.t_Bcm_W.row(0) += Vector3d(1e-3, 2e-3, -1e-3).transpose();
   }
 };
@@ -23,7 +23,7 @@ class Force : public Effect {
  public:
   std::string name() const override { return "force"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies&, double, Wrenches& wrenches) const override {
+  void addWrenches(const Instant&, Wrenches& wrenches) const override {
     wrenches.f_W.row(0) += Vector3d(1e-3, 2e-3, -1e-3).transpose();
   }
 };

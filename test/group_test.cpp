@@ -200,7 +200,7 @@ TEST(Restricted, GravityActsOnTheSameBodiesAtTheirNewPlaces) {
   Bodies bodies(3);
   bodies.mass << 3, 5, 7;
   Wrenches wrenches = {Column3::Zero(3, 3), Column3::Zero(3, 3)};
-  part->addWrenches(bodies, 0, wrenches);
+  part->addWrenches(Instant(bodies, 0), wrenches);
   EXPECT_EQ(wrenches.f_W.col(2), Eigen::Vector3d(-6, 0, -14));
   EXPECT_EQ(gravity->restrictedTo({0, 3})->bodyCount(), 0u);
 }
@@ -213,7 +213,7 @@ TEST(Restricted, HeldWrenchesFollowTheirBodies) {
   Bodies bodies(2);
   for (Eigen::Index i : {0, 1}) bodies.setState(i, BodyState());
   Wrenches wrenches = {Column3::Zero(2, 3), Column3::Zero(2, 3)};
-  part->addWrenches(bodies, 0, wrenches);
+  part->addWrenches(Instant(bodies, 0), wrenches);
   EXPECT_EQ(wrenches.f_W.row(0), Eigen::RowVector3d(1, 0, 0));
   EXPECT_EQ(wrenches.f_W.row(1), Eigen::RowVector3d(0, 0, 0));
 }
@@ -223,7 +223,7 @@ class Coupling : public Effect {
  public:
   std::string name() const override { return "coupling"; }
   std::size_t bodyCount() const override { return 6; }
-  void addWrenches(const Bodies&, double, Wrenches&) const override {}
+  void addWrenches(const Instant&, Wrenches&) const override {}
 };
 
 TEST(Restricted, AnEffectThatCouplesBodiesTakesOneMethodForAll) {

@@ -20,9 +20,9 @@ class Push : public Effect {
   explicit Push(const AppliedWrench& applied) : applied_(applied) {}
   std::string name() const override { return "push"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const override {
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     ++evaluations;
-    const Wrench wrench = inWorldAboutCom(applied_, bodies.state(0).q_WB);
+    const Wrench wrench = inWorldAboutCom(applied_, now.bodies().state(0).q_WB);
     wrenches.f_W.row(0) += wrench.f_F;
     wrenches.t_Bcm_W.row(0) += wrench.t_Q_F;
   }
@@ -39,8 +39,8 @@ class Obeying : public Effect {
   explicit Obeying(reference::PushLaw law) : law_(std::move(law)) {}
   std::string name() const override { return "law"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const override {
-    const reference::Push push = law_(time_s, reference::extended(bodies.state(0)));
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+    const reference::Push push = law_(now.time_s(), reference::extended(now.bodies().state(0)));
     wrenches.f_W.row(0) += push.f_W.cast<double>();
     wrenches.t_Bcm_W.row(0) += push.t_Bcm_W.cast<double>();
   }
@@ -88,7 +88,8 @@ inline double distance(const BodyState& a, const BodyState& b) {
 class IntegratorLaws : public testing::TestWithParam<IntegratorRow> {
  protected:
   std::unique_ptr<Integrator> make(Gyroscopic gyroscopic = Gyroscopic::kOn) const {
-    return GetParam().make({gyroscopic});
+    return GetParam().make({gyroscopic == Gyroscopic::kOn ? std::vector<Eigen::Index>()
+                                                          : std::vector<Eigen::Index>{0}});
   }
 
   BodyState run(const reference::Case& one, const Effect* effect, double time_s, int steps) const {

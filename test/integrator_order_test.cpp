@@ -50,7 +50,7 @@ class IntegratorOrder : public IntegratorLaws {
       Bodies bodies = bodiesOf(one);
       ActiveEffects effects;
       if (effect) effects.add(effect);
-      GetParam().make({Gyroscopic::kOn, tolerance})->step(bodies, effects, 0, time_s);
+      GetParam().make({{}, tolerance})->step(bodies, effects, 0, time_s);
       const double error = distance(bodies.state(0), exact);
       RecordProperty("error_over_tolerance", std::to_string(error / tolerance));
       EXPECT_LE(error, 10 * tolerance);

@@ -102,7 +102,7 @@ class Counter : public Effect {
  public:
   std::string name() const override { return "counter"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies&, double, Wrenches&) const override { ++count; }
+  void addWrenches(const Instant&, Wrenches&) const override { ++count; }
   mutable int count = 0;
 };
 

@@ -11,12 +11,19 @@ using Column3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 /// One quaternion a body, columns in the order of Eigen's coeffs(): x, y, z, w.
 using ColumnQ = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 
+/// One rotation matrix a body, or another 3 x 3 one, stored column by column: element (r, c) is in
+/// column 3 c + r.
+using ColumnR = Eigen::Matrix<double, Eigen::Dynamic, 9>;
+
 /// All bodies of a simulation; row i of every member belongs to body i. B is the frame of principal
 /// axes at the centre of mass.
 struct Bodies {
   // Constants.
   Eigen::VectorXd mass;  ///< [kg]
   Column3 I_BBcm_B;      ///< principal moments I1 <= I2 <= I3 [kg m^2]
+  /// Inverse of the mass matrix in B [1/kg], where a body carries added mass along: v = R A R^T P.
+  /// Without rows, where none does: v = P / m.
+  ColumnR inverse_mass_B;
 
   // State, see BodyState.
   Column3 p_WBcm;    ///< [m]
@@ -34,6 +41,27 @@ struct Bodies {
         L_WBcm_W(count, 3) {}
 
   Eigen::Index count() const { return mass.size(); }
+  bool hasAddedMass() const { return inverse_mass_B.rows() > 0; }
+
+  /// Of body i; the others have their own mass alone.
+  void setInverseMass(Eigen::Index i, const Matrix3d& A_B) {
+    if (!hasAddedMass()) {
+      inverse_mass_B.setZero(count(), 9);
+      for (const int k : {0, 4, 8}) inverse_mass_B.col(k) = mass.cwiseInverse();
+    }
+    inverse_mass_B.row(i) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(A_B.data());
+  }
+
+  /// Velocity of the centre of mass [m/s], in W.
+  Vector3d v_WBcm(Eigen::Index i) const { return velocityFor(i, P_WB.row(i)); }
+
+  /// The velocity that body i has with the momentum P [kg m/s], at its present attitude.
+  Vector3d velocityFor(Eigen::Index i, const Vector3d& P) const {
+    if (!hasAddedMass()) return P / mass(i);
+    const Quaterniond q(Eigen::Vector4d(q_WB.row(i)));
+    const Eigen::Matrix<double, 9, 1> A = inverse_mass_B.row(i);
+    return q * (Eigen::Map<const Matrix3d>(A.data()) * (q.conjugate() * P));
+  }
 
   BodyState state(Eigen::Index i) const {
     return {p_WBcm.row(i), Quaterniond(Eigen::Vector4d(q_WB.row(i))), P_WB.row(i), L_WBcm_W.row(i)};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rigid_body_sim/bodies.hpp"
+#include "rigid_body_sim/instant.hpp"
 
 namespace rigid_body_sim {
 
@@ -13,9 +13,26 @@ namespace rigid_body_sim {
 struct Wrenches {
   Column3 f_W;      ///< [N]
   Column3 t_Bcm_W;  ///< [N m]
+
+  /// No wrench on any of `count` bodies.
+  void setZero(Eigen::Index count);
+};
+
+/// The fastest that an effect can make a body swing or slow down: what decides which steps are
+/// stable.
+struct Stiffness {
+  double oscillation = 0;  ///< [rad/s]
+  double decay = 0;        ///< [1/s]
+  Eigen::Index body = 0;   ///< the stiffest one
 };
 
 /// A cause of forces and torques on some of the bodies. Effects do not change once made.
+///
+/// The methods that go kick - drift - kick take an effect in one of two ways. Most are kicks: their
+/// wrenches give momentum between the drifts. One that has a flow is part of the drift instead: it
+/// moves the bodies by itself before and after each drift, by a formula that is right at any step.
+/// So friction never turns a velocity round, however large it is. The Runge-Kutta methods take the
+/// wrenches of all.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -26,12 +43,32 @@ class Effect {
   /// How many bodies it acts on.
   virtual std::size_t bodyCount() const = 0;
 
-  /// Adds its wrenches at `time_s` [s] to `wrenches`.
-  virtual void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const = 0;
+  /// Adds its wrenches at this instant to `wrenches`.
+  virtual void addWrenches(const Instant& now, Wrenches& wrenches) const = 0;
 
   /// Whether its wrenches depend on velocities, as drag and damping do. Some integrators have a
-  /// lower order then, or refuse it.
+  /// lower order then, or refuse it, unless it has a flow.
   virtual bool dependsOnVelocity() const { return false; }
+
+  /// Whether all its work comes out of its potential energy.
+  virtual bool isConservative() const { return false; }
+
+  /// Potential energy of all bodies [J], of a conservative effect.
+  virtual double potentialEnergy(const Instant&) const { return 0; }
+
+  /// The order that kick - drift - kick methods keep with its flow; 0: it has none, and kicks.
+  virtual int flowOrder() const { return 0; }
+
+  /// Whether the flow can be run back in time; methods of high order do.
+  virtual bool hasReversibleFlow() const { return false; }
+
+  /// Its flow, before and after a drift of h [s] from `time_s`. Both together are the effect's own
+  /// motion for h.
+  virtual void beforeDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
+  virtual void afterDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
+
+  /// Zero if its wrenches cannot make any step unstable.
+  virtual Stiffness stiffness(const Instant&) const { return {}; }
 
   /// Time of an evaluation on one body, in torque-free steps of `semi_implicit`: what the choice of
   /// a method for an accuracy budget reckons with.
@@ -45,23 +82,9 @@ class Effect {
   }
 };
 
+using EffectList = std::vector<std::shared_ptr<const Effect>>;
+
 /// Uniform gravity g_W [m/s^2] on the bodies with the given indices: f = m g.
 std::shared_ptr<const Effect> uniformGravity(const Vector3d& g_W, std::vector<Eigen::Index> bodies);
-
-/// The effects that act now. One virtual call an effect and evaluation; an effect that is not in
-/// the list costs nothing at all.
-class ActiveEffects {
- public:
-  void add(const Effect* effect) { effects_.push_back(effect); }
-  void remove(const Effect* effect);
-  bool empty() const { return effects_.empty(); }
-
-  /// The sum of all effects at `time_s` [s]; valid until the next call.
-  const Wrenches& evaluate(const Bodies& bodies, double time_s);
-
- private:
-  std::vector<const Effect*> effects_;
-  Wrenches sum_;
-};
 
 }  // namespace rigid_body_sim

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rigid_body_sim/effect.hpp"
+#include "rigid_body_sim/active_effects.hpp"
 
 namespace rigid_body_sim {
 
@@ -23,7 +23,9 @@ class Integrator {
 enum class Gyroscopic { kOn, kOff };
 
 struct IntegratorOptions {
-  Gyroscopic gyroscopic = Gyroscopic::kOn;
+  /// The bodies without the gyroscopic term, by index; of spherical ones it is not asked, as they
+  /// have none.
+  std::vector<Eigen::Index> ungyroscopic = {};
   double tolerance = 1e-12;  ///< error a step of 1 s may have, for methods that adapt their step:
                              ///< of the attitude [rad] and relative to each momentum and position;
                              ///< such a method's steps are common to all bodies that it steps
@@ -35,13 +37,18 @@ struct IntegratorRow {
   std::string name;
   int order;  ///< of the global error, under wrenches that depend on time and pose; 0: the method
               ///< adapts its own steps to a tolerance
-  int order_under_drag;  ///< under wrenches that depend on velocities; 0: refused, as the method
-                         ///< has steps back in time, which turn dissipation into growth
+  int order_under_drag;  ///< under wrenches that depend on velocities and have no flow; 0: refused,
+                         ///< as the method has steps back in time, which turn dissipation into
+                         ///< growth
+  bool has_drifts;       ///< takes effects with a flow as part of its drift
   bool free_flight_is_exact;  ///< without torque the error is rounding at any step, not of `order`
   bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
   bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
   bool is_reversible;           ///< a step of -h undoes a step of h, to rounding
   double max_turn;     ///< largest |w| h [rad] of a step; beyond, errors grow without bound
+  double max_swing;    ///< largest (angular frequency) h of an oscillation that stays stable
+  double max_decay;    ///< largest (rate) h of a decay by wrenches that stays stable; of effects
+                       ///< with a flow only Runge-Kutta methods ask
   int evaluations;     ///< of the effects, a step; 0: as many as it needs
   double cost;         ///< time of a step of one body on which no effect acts, in those of
                        ///< `semi_implicit`; measured, see README

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "rigid_body_sim/body_frame.hpp"
-#include "rigid_body_sim/effect.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/mass_properties.hpp"
 #include "rigid_body_sim/method.hpp"
@@ -27,7 +26,13 @@ struct SceneBody {
   Vector3d v_WBcm = Vector3d::Zero();  ///< velocity of the centre of mass [m/s], world axes
   Vector3d w_WB_L = Vector3d::Zero();  ///< angular velocity [rad/s], root link axes
   bool is_point_mass = false;          ///< has no rotation; takes no torque
+  std::optional<Gyroscopic> gyroscopic = std::nullopt;  ///< unset: as the scene's
+  AddedMass added_mass_L = {};
 };
+
+/// Frame and inertia that a scene's body is simulated with.
+/// @throws std::invalid_argument naming the body, if no rigid body has its mass properties.
+BodyFrame bodyFrame(const SceneBody& body);
 
 /// Name of the frame at a body's centre of mass, along its principal axes.
 inline std::string comFrameName(const std::string& body) { return body + "/com"; }
@@ -52,7 +57,9 @@ struct Scene {
   std::optional<Budget> accuracy;
   Gyroscopic gyroscopic = Gyroscopic::kOn;
   std::vector<SceneBody> bodies;
-  std::vector<std::shared_ptr<const Effect>> effects;
+  EffectList effects;
+  std::vector<std::string> elided;    ///< effects that do nothing here, and why; one line each
+  bool energy_audit = false;          ///< keep account of the work of all effects
   std::string import_report;          ///< what the URDF files held; empty without any
   std::vector<std::string> warnings;  ///< of the import and of the integrator, one line each
 
@@ -89,5 +96,16 @@ inline Method methodOf(const Scene& scene) {
 /// One line that says what is simulated: `3 bodies; effects: gravity (2 bodies), gyroscopic on;
 /// integrator: exact, step 0.02 s`.
 std::string summary(const Scene& scene);
+
+/// What is not computed, as it would change nothing, and why; one line each: effects whose
+/// parameters are zero, the gyroscopic term of spheres, the rotation of point masses.
+std::vector<std::string> elisions(const Scene& scene);
+
+/// The bodies without the gyroscopic term. Spherical ones and point masses are not among them: for
+/// them the term is zero, and they fly the same way with and without.
+/// @param some to look at; the result are places in it
+std::vector<Eigen::Index> ungyroscopicBodies(const Scene& scene,
+                                             const std::vector<Eigen::Index>& some);
+std::vector<Eigen::Index> ungyroscopicBodies(const Scene& scene);
 
 }  // namespace rigid_body_sim

@@ -65,7 +65,7 @@ class AppliedWrenches : public Effect {
  public:
   std::string name() const override { return "applied"; }
   std::size_t bodyCount() const override { return held_.size(); }
-  void addWrenches(const Bodies& bodies, double time_s, Wrenches& wrenches) const override;
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override;
   std::shared_ptr<const Effect> restrictedTo(
       const std::vector<Eigen::Index>& bodies) const override;
 
@@ -87,6 +87,25 @@ struct OverTurnedBody {
   Method method;
   double turn;      ///< [rad] a step
   double max_turn;  ///< what the method bears
+};
+
+/// Where the energy of all bodies is, and what changed it. Work is counted if the scene asks for an
+/// audit; then `unaccounted` is what the integrator's error has made or lost, as long as no body is
+/// frozen and no effect was switched.
+struct EnergyBalance {
+  double kinetic_J = 0;
+  double potential_J = 0;  ///< of the conservative effects
+  double start_J = 0;      ///< both, at the start
+  double inputs_J = 0;     ///< work of wrenches and impulses since the start
+  double effects_J = 0;    ///< work of effects that are not conservative; negative: dissipated
+
+  double unaccounted_J() const { return kinetic_J + potential_J - start_J - inputs_J - effects_J; }
+};
+
+/// What one effect does to each body at an instant.
+struct EffectWrenches {
+  std::string name;
+  Wrenches wrenches;
 };
 
 /// The state of a scene and the loop that advances it. Deterministic: the same scene and the same
@@ -123,6 +142,27 @@ class Simulator {
   /// Back to the initial state, without inputs and frozen bodies. Takes one tick, so that no time
   /// belongs to two states.
   void reset();
+
+  /// The beginning of this tick, from the start [s].
+  double time_s() const { return static_cast<double>(tick_) * scene_.step_s(); }
+
+  /// Ends or begins again what the scene lists below `effects`, or the gyroscopic term of those
+  /// bodies that do not say of it themselves, from this tick on; until the next reset.
+  /// @throws std::invalid_argument for an effect that the scene does not have, or if a method does
+  /// not bear it; nothing is changed then.
+  void switchEffect(const std::string& name, bool is_on);
+
+  /// What switchEffect() takes.
+  std::vector<std::string> effectNames() const;
+
+  /// What each effect has done since the start or the latest reset; those that were never active
+  /// are not among them.
+  std::vector<EffectCount> effectCounts() const;
+
+  /// What each effect does at this instant, the held wrenches last.
+  std::vector<EffectWrenches> effectWrenches() const;
+
+  EnergyBalance energy() const;
 
   const Bodies& bodies() const { return bodies_; }
   BodyState state(Eigen::Index body) const { return bodies_.state(body); }
@@ -168,6 +208,14 @@ class Simulator {
   Bodies before_;  // the state before the step, for freezing
   Tick tick_ = 0;
   std::vector<std::unique_ptr<Group>> groups_;
+  struct Switches {
+    EffectList effects;
+    Gyroscopic gyroscopic = Gyroscopic::kOn;
+  };
+  Switches at_start_;
+  std::vector<EffectCount> counts_;  // of groups that are no more
+  double start_energy_J_ = 0;
+  double impulse_work_J_ = 0;
   std::unique_ptr<AccuracyWatch> watch_;  // null: no accuracy asked for
   // At a fixed address, as the groups point to it and a simulator may be moved.
   std::unique_ptr<AppliedWrenches> applied_ = std::make_unique<AppliedWrenches>();

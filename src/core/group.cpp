@@ -62,6 +62,15 @@ std::optional<EffectList> restrictedTo(const EffectList& effects,
   return restricted;
 }
 
+int orderUnder(const IntegratorRow& row, const Effect& effect) {
+  if (row.has_drifts && effect.flowOrder() > 0) {
+    const bool goes_back = row.order_under_drag == 0 && row.order > 0;
+    if (goes_back && !effect.hasReversibleFlow()) return 0;
+    return std::min(row.order, effect.flowOrder());
+  }
+  return effect.dependsOnVelocity() ? row.order_under_drag : row.order;
+}
+
 bool areCoupled(const EffectList& effects, Eigen::Index count) {
   for (Eigen::Index i = 0; i < count; ++i)
     if (!restrictedTo(effects, {i})) return true;
@@ -74,6 +83,10 @@ Bodies rowsOf(const Bodies& bodies, const std::vector<Eigen::Index>& indices) {
     const auto row = static_cast<Eigen::Index>(k);
     rows.mass(row) = bodies.mass(indices[k]);
     rows.I_BBcm_B.row(row) = bodies.I_BBcm_B.row(indices[k]);
+    if (bodies.hasAddedMass()) {
+      rows.inverse_mass_B.conservativeResize(rows.count(), 9);
+      rows.inverse_mass_B.row(row) = bodies.inverse_mass_B.row(indices[k]);
+    }
     rows.setState(row, bodies.state(indices[k]));
   }
   return rows;
@@ -94,10 +107,39 @@ std::string objection(const Method& method, const EffectList& effects) {
     return "the number of substeps must be from 1 to " + std::to_string(kMostSubsteps) + ", not " +
            std::to_string(method.substeps);
   if (!(method.tolerance > 0)) return "the tolerance must be positive";
-  for (const auto& effect : effects)
-    if (row.order > 0 && row.order_under_drag == 0 && effect->dependsOnVelocity())
+  for (const auto& effect : effects) {
+    const bool is_reversible = effect->flowOrder() > 0 && effect->hasReversibleFlow();
+    if (row.order > 0 && row.order_under_drag == 0 && effect->dependsOnVelocity() && !is_reversible)
       return "integrator '" + row.name + "' has steps back in time, in which '" + effect->name() +
              "' would feed energy: it depends on velocities; take rk4 or rk8";
+  }
+  return {};
+}
+
+std::string objection(const Method& method, const EffectList& effects, const Instant& now,
+                      double tick_s) {
+  const IntegratorRow& row = integratorNamed(method.integrator);
+  for (const auto& effect : effects) {
+    const bool is_flow = row.has_drifts && effect->flowOrder() > 0;
+    if (is_flow) continue;
+    const Stiffness stiff = effect->stiffness(now);
+    const double longest = std::min(row.max_swing / stiff.oscillation, row.max_decay / stiff.decay);
+    if (!(tick_s > longest * method.substeps)) continue;
+    std::ostringstream why;
+    why << "integrator '" << toText(method) << "' cannot hold '" << effect->name() << "' on body "
+        << stiff.body << " in steps of " << tick_s << " s: it ";
+    if (stiff.oscillation > 0) why << "swings at " << stiff.oscillation << " rad/s";
+    if (stiff.oscillation > 0 && stiff.decay > 0) why << " and ";
+    if (stiff.decay > 0) why << "slows down at " << stiff.decay << " 1/s";
+    if (longest == 0) {
+      why << ", which grows at any step; take semi_implicit, exact or rk4";
+    } else {
+      why << "; the largest stable step is " << longest * method.substeps << " s, or take "
+          << std::ceil(tick_s / longest) << " substeps";
+      if (!row.has_drifts && effect->flowOrder() > 0) why << ", or exact, which bears any";
+    }
+    return why.str();
+  }
   return {};
 }
 
@@ -114,11 +156,14 @@ std::string objection(const Method& method, double rate, double tick_s) {
 
 std::string caution(const Method& method, const EffectList& effects) {
   const IntegratorRow& row = integratorNamed(method.integrator);
-  if (row.order_under_drag >= row.order || row.order_under_drag == 0) return {};
-  for (const auto& effect : effects)
-    if (effect->dependsOnVelocity())
-      return effect->name() + " depends on velocities: " + row.name + " is of order " +
-             std::to_string(row.order_under_drag) + " with it, not " + std::to_string(row.order);
+  for (const auto& effect : effects) {
+    const int order = orderUnder(row, *effect);
+    if (order >= row.order || order == 0) continue;
+    return effect->name() +
+           (effect->flowOrder() > 0 ? " is a flow of its own: " : " depends on velocities: ") +
+           row.name + " is of order " + std::to_string(order) + " with it, not " +
+           std::to_string(row.order);
+  }
   return {};
 }
 
@@ -129,8 +174,10 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
     const EffectList effects = effectsOn(part, scene);
     std::string why = objection(part.method, effects);
     if (!why.empty()) throw std::invalid_argument(why);
-    const FastestBody fastest =
-        fastestOf(part.bodies.empty() ? bodies : rowsOf(bodies, part.bodies));
+    const Bodies own = part.bodies.empty() ? bodies : rowsOf(bodies, part.bodies);
+    why = objection(part.method, effects, Instant(own, 0), scene.step_s());
+    if (!why.empty()) throw std::invalid_argument(why);
+    const FastestBody fastest = fastestOf(own);
     why = objection(part.method, fastest.rate, scene.step_s());
     const Eigen::Index body = part.bodies.empty() ? fastest.body : part.bodies[fastest.body];
     if (!why.empty()) throw std::invalid_argument("body '" + scene.bodies[body].name + "': " + why);
@@ -143,16 +190,19 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
 std::vector<Group> groupsOf(const Scene& scene) {
   std::vector<Group> groups;
   for (const MethodOfBodies& part : methodsOf(scene))
-    groups.emplace_back(part.method, scene.gyroscopic, effectsOn(part, scene), part.bodies);
+    groups.emplace_back(part.method,
+                        part.bodies.empty() ? ungyroscopicBodies(scene)
+                                            : ungyroscopicBodies(scene, part.bodies),
+                        effectsOn(part, scene), part.bodies);
   return groups;
 }
 
-Group::Group(const Method& method, Gyroscopic gyroscopic, EffectList effects,
+Group::Group(const Method& method, std::vector<Eigen::Index> ungyroscopic, EffectList effects,
              std::vector<Eigen::Index> bodies)
     : method_(method),
       indices_(std::move(bodies)),
       effects_(std::move(effects)),
-      integrator_(integratorNamed(method.integrator).make({gyroscopic, method.tolerance})) {
+      integrator_(integratorNamed(method.integrator).make({std::move(ungyroscopic), method.tolerance})) {
   for (const auto& effect : effects_) active_.add(effect.get());
 }
 
@@ -162,9 +212,24 @@ void Group::hold(const AppliedWrenches& applied) {
   applied_ = own_applied_ ? own_applied_.get() : &applied;
   if (applied_->bodyCount() == 0) applied_ = nullptr;
   if (applied_) active_.add(applied_);
+  disturb();
+}
+
+/// Free bodies that are at rest stay there until somebody moves them; so nothing is computed.
+bool Group::isAtRest(const Bodies& all) {
+  if (!active_.empty()) return false;
+  if (motion_ != Motion::kUnknown) return motion_ == Motion::kAtRest;
+  const auto rests = [&](Eigen::Index i) {
+    return all.P_WB.row(i).isZero(0) && all.L_WBcm_W.row(i).isZero(0);
+  };
+  bool all_rest = indices_.empty() ? all.P_WB.isZero(0) && all.L_WBcm_W.isZero(0)
+                                   : std::all_of(indices_.begin(), indices_.end(), rests);
+  motion_ = all_rest ? Motion::kAtRest : Motion::kMoves;
+  return all_rest;
 }
 
 void Group::step(Bodies& all, double start_s, double tick_s) {
+  if (isAtRest(all)) return;
   if (indices_.empty()) return stepInPlace(all, start_s, tick_s);
   gather(all);
   stepInPlace(own_, start_s, tick_s);

@@ -11,8 +11,6 @@
 
 namespace rigid_body_sim {
 
-using EffectList = std::vector<std::shared_ptr<const Effect>>;
-
 /// The effects on some of the bodies alone, without those that act on none of them; nothing if one
 /// of them cannot be divided.
 std::optional<EffectList> restrictedTo(const EffectList& effects,
@@ -32,8 +30,16 @@ struct FastestBody {
 };
 FastestBody fastestOf(const Bodies& bodies);
 
+/// The order of the method under the effect; 0: it is refused.
+int orderUnder(const IntegratorRow& row, const Effect& effect);
+
 /// Why the method must not step bodies under these effects; empty if it may.
 std::string objection(const Method& method, const EffectList& effects);
+
+/// Why ticks of `tick_s` [s] are too long for the method under these effects, which are judged at
+/// `now`; names the effect and the longest stable tick. Empty if they are not.
+std::string objection(const Method& method, const EffectList& effects, const Instant& now,
+                      double tick_s);
 
 /// Why the method must not step bodies that turn at `rate` [rad/s], in ticks of `tick_s` [s].
 std::string objection(const Method& method, double rate, double tick_s);
@@ -46,9 +52,10 @@ std::string caution(const Method& method, const EffectList& effects);
 /// them: there, to its tolerance.
 class Group {
  public:
+  /// @param ungyroscopic those of these bodies that fly without the gyroscopic term
   /// @param effects on these bodies alone
   /// @param bodies which of all they are; empty: all, which are then stepped in place
-  Group(const Method& method, Gyroscopic gyroscopic, EffectList effects,
+  Group(const Method& method, std::vector<Eigen::Index> ungyroscopic, EffectList effects,
         std::vector<Eigen::Index> bodies = {});
 
   /// Takes up the wrenches that are held now; `applied` stays where it is for as long as they are.
@@ -57,10 +64,20 @@ class Group {
   /// From `start_s` [s] for a tick of `tick_s` [s]; the state of other bodies is left alone.
   void step(Bodies& all, double start_s, double tick_s);
 
+  /// Somebody else has moved one of its bodies.
+  void disturb() { motion_ = Motion::kUnknown; }
+
+  /// What the effects have done since the group was made.
+  std::vector<EffectCount> counts() const { return active_.counts(); }
+  void beginAudit() { active_.beginAudit(); }
+
   const Method& method() const { return method_; }
   const std::vector<Eigen::Index>& bodies() const { return indices_; }
 
  private:
+  enum class Motion { kUnknown, kAtRest, kMoves };
+
+  bool isAtRest(const Bodies& all);
   void stepInPlace(Bodies& bodies, double start_s, double tick_s);
   void gather(const Bodies& all);
   void scatter(Bodies& all) const;
@@ -73,6 +90,7 @@ class Group {
   std::shared_ptr<const Effect> own_applied_;  // the wrenches held on these bodies; null: on none
   const Effect* applied_ = nullptr;            // what of them is active
   Bodies own_;                                 // these bodies; none if they are all
+  Motion motion_ = Motion::kUnknown;           // of free bodies
 };
 
 /// A group for each method of the scene.

@@ -15,7 +15,7 @@ std::optional<Part> partOf(const Situation& now, const std::vector<Eigen::Index>
   return Part{bodies,
               rowsOf(now.bodies, bodies),
               std::move(*effects),
-              now.scene.gyroscopic,
+              ungyroscopicBodies(now.scene, bodies),
               now.scene.step_s(),
               now.tick,
               now.shall_end};
@@ -27,12 +27,12 @@ Part wholeOf(const Situation& now) {
   EffectList effects = now.scene.effects;
   if (auto held = now.held.restrictedTo(all); held->bodyCount() > 0)
     effects.push_back(std::move(held));
-  return {std::move(all),     now.bodies, std::move(effects), now.scene.gyroscopic,
-          now.scene.step_s(), now.tick,   now.shall_end};
+  return {std::move(all),          now.bodies,         std::move(effects),
+          ungyroscopicBodies(now.scene), now.scene.step_s(), now.tick, now.shall_end};
 }
 
 Flight::Flight(const Part& part, const Method& method)
-    : group_(method, part.gyroscopic, part.effects),
+    : group_(method, part.ungyroscopic, part.effects),
       bodies_(part.bodies),
       tick_(part.tick),
       tick_s_(part.tick_s),

@@ -27,7 +27,7 @@ struct Part {
   std::vector<Eigen::Index> indices;  ///< of the bodies in the scene
   Bodies bodies;
   EffectList effects;  ///< held wrenches among them
-  Gyroscopic gyroscopic;
+  std::vector<Eigen::Index> ungyroscopic;  ///< places of those without the gyroscopic term
   double tick_s;
   Tick tick;
   ShallEnd shall_end = {};

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/scene_body.hpp"
-#include "effects/registry.hpp"
+#include "core/scene_effects.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -111,31 +111,15 @@ std::vector<Parameters> readBodies(const Parameters& parameters, Scene& scene) {
   return blocks;
 }
 
-/// The bodies that an effect acts on: all but those whose block says `<effect>: false`. They may
-/// say so of an effect that the scene does not have, but not ask for one.
-std::vector<Eigen::Index> members(const std::string& effect, bool scene_has_it,
-                                  const std::vector<Parameters>& blocks) {
-  std::vector<Eigen::Index> members;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    if (blocks[i].boolean(effect, scene_has_it)) members.push_back(static_cast<Eigen::Index>(i));
-    if (!scene_has_it && !members.empty())
-      blocks[i].refuse(effect, "the scene has no such effect; list it under `effects`");
-  }
-  return members;
-}
-
-void readEffects(const Parameters& parameters, const std::vector<Parameters>& bodies,
-                 Scene& scene) {
-  const Parameters effects = parameters.child("effects");
-  scene.gyroscopic = effects.boolean("gyroscopic", true) ? Gyroscopic::kOn : Gyroscopic::kOff;
-  for (const EffectRow& row : effectRegistry()) {
-    std::vector<Eigen::Index> acts_on = members(row.name, effects.has(row.name), bodies);
-    if (!effects.has(row.name)) continue;
-    const Parameters block = effects.child(row.name);
-    if (auto effect = row.make(block, std::move(acts_on))) scene.effects.push_back(effect);
-    block.refuseUnknown();
-  }
-  effects.refuseUnknown();
+std::string summaryOfGyroscopic(const Scene& scene) {
+  const bool is_on = scene.gyroscopic == Gyroscopic::kOn;
+  const auto others = std::count_if(
+      scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& body) {
+        return body.gyroscopic.value_or(scene.gyroscopic) != scene.gyroscopic;
+      });
+  std::string text = is_on ? "gyroscopic on" : "gyroscopic off";
+  if (others > 0) text += (is_on ? " (off for " : " (on for ") + std::to_string(others) + ")";
+  return text;
 }
 
 std::string summaryOfMethods(const Scene& scene) {
@@ -161,6 +145,7 @@ Scene readScene(const Parameters& parameters, const SceneSources& sources) {
   if (scene.bodies.empty())
     parameters.refuse("bodies", "the scene has no body; name URDF files in `urdf` or give masses");
   readEffects(parameters, bodies, scene);
+  scene.energy_audit = parameters.boolean("energy_audit", false);
   for (const Parameters& body : bodies) body.refuseUnknown();
   return scene;
 }
@@ -176,6 +161,22 @@ Scene readSceneFile(const std::string& path) {
   } catch (const std::invalid_argument& error) {
     const std::string what = error.what();
     throw std::invalid_argument(what.rfind(path, 0) == 0 ? what : path + ": " + what);
+  }
+}
+
+BodyFrame bodyFrame(const SceneBody& body) {
+  if (body.is_point_mass) {
+    // It has no rotation: L stays zero, and a unit tensor keeps its angular velocity at zero.
+    BodyFrame frame;
+    frame.mass = body.mass_properties.mass;
+    frame.I_BBcm_B = Vector3d::Ones();
+    frame.p_LBcm = body.mass_properties.p_FBcm;
+    return frame;
+  }
+  try {
+    return bodyFrame(body.mass_properties, body.added_mass_L);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body '" + body.name + "': " + error.what());
   }
 }
 
@@ -210,8 +211,7 @@ std::string summary(const Scene& scene) {
     text << effect->name() << " (" << effect->bodyCount()
          << (effect->bodyCount() == 1 ? " body), " : " bodies), ");
   }
-  text << "gyroscopic " << (scene.gyroscopic == Gyroscopic::kOn ? "on" : "off") << "; "
-       << summaryOfMethods(scene) << ", step " << scene.step_s() << " s";
+  text << summaryOfGyroscopic(scene) << "; " << summaryOfMethods(scene) << ", step " << scene.step_s() << " s";
   return text.str();
 }
 

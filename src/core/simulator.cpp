@@ -9,6 +9,7 @@
 #include "core/accuracy_plan.hpp"
 #include "core/accuracy_watch.hpp"
 #include "core/group.hpp"
+#include "rigid_body_sim/conserved.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -52,19 +53,6 @@ bool allFinite(const Bodies& bodies) {
          bodies.L_WBcm_W.allFinite();
 }
 
-BodyFrame frameOf(const SceneBody& body) {
-  if (body.is_point_mass) {
-    // It has no rotation: L stays zero, and a unit tensor keeps its angular velocity at zero.
-    return {body.mass_properties.mass, Vector3d::Ones(), body.mass_properties.p_FBcm,
-            Quaterniond::Identity()};
-  }
-  try {
-    return bodyFrame(body.mass_properties);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("body '" + body.name + "': " + error.what());
-  }
-}
-
 /// Every frame of every body becomes a frame of one tree.
 void requireUniqueFrames(const Scene& scene) {
   std::map<std::string, std::string> owners;  // body by frame
@@ -100,6 +88,7 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   for (const auto& effect : scene_.effects)
     if (!effect) throw std::invalid_argument("an effect of the scene is null");
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
+  initial_.mass.setOnes();
   for (const SceneBody& body : scene_.bodies) addBody(body);
   bodies_ = before_ = initial_;
   if (scene_.accuracy) {
@@ -110,7 +99,9 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   }
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
+  at_start_ = {scene_.effects, scene_.gyroscopic};
   makeGroups();
+  start_energy_J_ = energy().kinetic_J + energy().potential_J;
 }
 
 Simulator::~Simulator() = default;
@@ -120,9 +111,11 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 void Simulator::addBody(const SceneBody& body) {
   requireRigid(body);
   const auto i = static_cast<Eigen::Index>(frames_.size());
-  frames_.push_back(frameOf(body));
+  frames_.push_back(rigid_body_sim::bodyFrame(body));
   initial_.mass(i) = frames_.back().mass;
   initial_.I_BBcm_B.row(i) = frames_.back().I_BBcm_B;
+  if (frames_.back().has_added_mass)
+    initial_.setInverseMass(i, frames_.back().mass_matrix_B.inverse());
   const BodyState state = stateOfLink(frames_.back(), body.X_WL, body.v_WBcm,
                                       body.is_point_mass ? Vector3d::Zero() : body.w_WB_L);
   if (!isFinite(state))
@@ -131,10 +124,14 @@ void Simulator::addBody(const SceneBody& body) {
 }
 
 void Simulator::makeGroups() {
+  for (const auto& group : groups_) addUp(group->counts(), counts_);
   groups_.clear();
   for (Group& group : groupsOf(scene_))
     groups_.push_back(std::make_unique<Group>(std::move(group)));
-  for (const auto& group : groups_) group->hold(*applied_);
+  for (const auto& group : groups_) {
+    if (scene_.energy_audit) group->beginAudit();
+    group->hold(*applied_);
+  }
 }
 
 void Simulator::apply(WrenchInput input) {
@@ -175,8 +172,9 @@ void Simulator::latchWrenches() {
   if (watch_)
     for (const WrenchInput& input : begun) watch_->wrench(input.body, bodies_, tick_);
   ended_ = applied_->update(std::move(begun), tick_);
-  if (may_change || !ended_.empty())
+  if (may_change || !ended_.empty()) {
     for (const auto& group : groups_) group->hold(*applied_);
+  }
 }
 
 void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
@@ -188,8 +186,11 @@ void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
     const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
     body.P_WB += impulse.f_F;
     body.L_WBcm_W += impulse.t_Q_F;
+    const double before = scene_.energy_audit ? kineticEnergy(bodies_, input.body) : 0;
     bodies_.setState(input.body, body);
+    if (scene_.energy_audit) impulse_work_J_ += kineticEnergy(bodies_, input.body) - before;
   }
+  for (const auto& group : groups_) group->disturb();
 }
 
 void Simulator::freezeNonFinite(const Bodies& before) {
@@ -209,8 +210,7 @@ void Simulator::step() {
     watch_->beginTick({scene_, bodies_, *applied_, tick_});
     replanIfDue();
   }
-  const double start_s = static_cast<double>(tick_) * scene_.step_s();
-  for (const auto& group : groups_) group->step(bodies_, start_s, scene_.step_s());
+  for (const auto& group : groups_) group->step(bodies_, time_s(), scene_.step_s());
   freezeNonFinite(before_);
   if (watch_) watch_->endTick(bodies_, frozen_, tick_);
   ++tick_;
@@ -226,21 +226,81 @@ void Simulator::replanIfDue() {
   makeGroups();
 }
 
+std::vector<EffectCount> Simulator::effectCounts() const {
+  std::vector<EffectCount> counts = counts_;
+  for (const auto& group : groups_) addUp(group->counts(), counts);
+  return counts;
+}
+
+EnergyBalance Simulator::energy() const {
+  EnergyBalance energy;
+  energy.kinetic_J = kineticEnergy(bodies_);
+  const Instant now(bodies_, time_s());
+  for (const auto& effect : scene_.effects) energy.potential_J += effect->potentialEnergy(now);
+  energy.start_J = start_energy_J_;
+  energy.inputs_J = impulse_work_J_;
+  for (const EffectCount& count : effectCounts())
+    (count.name == applied_->name() ? energy.inputs_J : energy.effects_J) += count.work_J;
+  return energy;
+}
+
+std::vector<EffectWrenches> Simulator::effectWrenches() const {
+  std::vector<EffectWrenches> all;
+  const Instant now(bodies_, time_s());
+  const auto add = [&](const Effect& effect) {
+    all.push_back({effect.name(), {}});
+    all.back().wrenches.setZero(bodies_.count());
+    effect.addWrenches(now, all.back().wrenches);
+  };
+  for (const auto& effect : scene_.effects) add(*effect);
+  if (applied_->bodyCount() > 0) add(*applied_);
+  return all;
+}
+
 const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->state() : nullptr; }
 
 void Simulator::reset() {
   copyState(initial_, bodies_);
   applied_->clear();
-  for (const auto& group : groups_) group->hold(*applied_);
-  if (watch_ && watch_->reset(tick_ + 1)) {
-    scene_.methods = methodsOf(watch_->state().bill);
-    makeGroups();
-  }
+  if (watch_ && watch_->reset(tick_ + 1)) scene_.methods = methodsOf(watch_->state().bill);
+  scene_.effects = at_start_.effects;
+  scene_.gyroscopic = at_start_.gyroscopic;
+  makeGroups();
+  counts_.clear();
+  impulse_work_J_ = 0;
   pending_wrenches_.clear();
   pending_impulses_.clear();
   ended_.clear();
   frozen_.clear();
   ++tick_;
+}
+
+std::vector<std::string> Simulator::effectNames() const {
+  std::vector<std::string> names = {"gyroscopic"};
+  for (const auto& effect : at_start_.effects)
+    if (std::find(names.begin(), names.end(), effect->name()) == names.end())
+      names.push_back(effect->name());
+  return names;
+}
+
+void Simulator::switchEffect(const std::string& name, bool is_on) {
+  const std::vector<std::string> names = effectNames();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string known;
+    for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+    throw std::invalid_argument("the scene has no effect '" + name + "'; there are " + known);
+  }
+  Scene changed = scene_;
+  if (name == "gyroscopic") changed.gyroscopic = is_on ? Gyroscopic::kOn : Gyroscopic::kOff;
+  changed.effects.clear();
+  for (const auto& effect : at_start_.effects) {
+    const auto& now = scene_.effects;
+    const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
+    if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
+  }
+  requireSuitableMethods(changed, bodies_);
+  scene_ = std::move(changed);
+  makeGroups();
 }
 
 std::optional<OverTurnedBody> Simulator::overTurnedBody() const {

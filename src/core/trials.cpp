@@ -107,7 +107,6 @@ Trials::Trials(const Part& part, const Allowance& allowance)
   ActiveEffects active;
   for (const auto& effect : part.effects) {
     active.add(effect.get());
-    has_drag_ = has_drag_ || effect->dependsOnVelocity();
     effects_cost_ += effect->cost() * static_cast<double>(effect->bodyCount()) /
                      static_cast<double>(part.bodies.count());
   }
@@ -165,11 +164,14 @@ std::vector<Trials::Rung> Trials::rungs(const std::string& except) const {
   std::vector<Rung> rungs;
   for (const IntegratorRow& row : integrators()) {
     // An adaptive method's price is not known before, and its steps would couple the bodies.
-    if (row.order == 0 || row.name == except || (has_drag_ && row.order_under_drag == 0)) continue;
+    if (row.order == 0 || row.name == except) continue;
+    int order = row.order;
+    for (const auto& effect : part_.effects) order = std::min(order, orderUnder(row, *effect));
+    if (order == 0) continue;
     // Where nothing acts, all the exact ones are one.
     if (part_.effects.empty() && row.free_flight_is_exact && row.name != "exact") continue;
     const int least = indexOf(std::isinf(row.max_turn) ? 1 : rate_ * part_.tick_s / row.max_turn);
-    rungs.push_back({&row, has_drag_ ? row.order_under_drag : row.order, least - 1, least, count});
+    rungs.push_back({&row, order, least - 1, least, count});
   }
   return rungs;
 }

@@ -57,7 +57,6 @@ class Trials {
   std::vector<Tick> compared_;  // ticks
   double rate_ = 0;             // the largest |w| on the way [rad/s]
   bool is_torque_free_ = true;
-  bool has_drag_ = false;
   double effects_cost_ = 0;  // of an evaluation, a body
   double body_steps_ = 0;
   std::map<std::pair<std::string, int>, Deviation> flown_;

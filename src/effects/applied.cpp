@@ -9,7 +9,8 @@ bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
          old.origin.source == input.origin.source && old.origin.sequence != input.origin.sequence;
 }
 
-void AppliedWrenches::addWrenches(const Bodies& bodies, double, Wrenches& wrenches) const {
+void AppliedWrenches::addWrenches(const Instant& now, Wrenches& wrenches) const {
+  const Bodies& bodies = now.bodies();
   for (const WrenchInput& input : held_) {
     const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(input.body)));
     const Wrench wrench = inWorldAboutCom(input.applied, q_WB);

@@ -1,21 +1,13 @@
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "rigid_body_sim/effect.hpp"
-#include "rigid_body_sim/parameters.hpp"
+#include "rigid_body_sim/effect_row.hpp"
 
 namespace rigid_body_sim {
 
-/// An effect that scenes can list below `effects`.
-struct EffectRow {
-  std::string name;
-  /// Null if its parameters make it nothing: an effect that does nothing is not in the list.
-  std::shared_ptr<const Effect> (*make)(const Parameters& block, std::vector<Eigen::Index> bodies);
-};
-
+/// All built-in effects, in the order in which they are summed. One that adds mass comes first, as
+/// the others may ask for the frames of bodies.
 const std::vector<EffectRow>& effectRegistry();
 
 }  // namespace rigid_body_sim

@@ -13,9 +13,9 @@
 namespace rigid_body_sim {
 
 /// m' in body axes [N m]: m x w + t, the first term only with the gyroscopic effect.
-template <Gyroscopic gyroscopic>
-Vector3d momentumRate(const Vector3d& m_B, const Vector3d& w_B, const Vector3d& t_B) {
-  if constexpr (gyroscopic == Gyroscopic::kOff) return t_B;
+inline Vector3d momentumRate(Gyroscopic gyroscopic, const Vector3d& m_B, const Vector3d& w_B,
+                             const Vector3d& t_B) {
+  if (gyroscopic == Gyroscopic::kOff) return t_B;
   return m_B.cross(w_B) + t_B;
 }
 
@@ -32,11 +32,10 @@ inline Vector3d scaled(const Vector3d& v) {
 /// gets into it. Where little is left of L, as at the end of a braking, the error of m that is left
 /// of the larger one says nothing of the attitude, and the body is not turned. Without the
 /// gyroscopic effect L follows from the attitude.
-template <Gyroscopic gyroscopic>
-void setRotation(BodyState& body, const Quaterniond& q_WB, const Vector3d& m_B,
-                 const Vector3d& L_W) {
+inline void setRotation(Gyroscopic gyroscopic, BodyState& body, const Quaterniond& q_WB,
+                        const Vector3d& m_B, const Vector3d& L_W) {
   body.q_WB = q_WB.normalized();
-  if constexpr (gyroscopic == Gyroscopic::kOff) {
+  if (gyroscopic == Gyroscopic::kOff) {
     body.L_WBcm_W = body.q_WB * m_B;
     return;
   }

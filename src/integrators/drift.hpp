@@ -1,7 +1,6 @@
 #pragma once
 
-#include "rigid_body_sim/bodies.hpp"
-#include "rigid_body_sim/integrator.hpp"
+#include "integrators/ungyroscopic.hpp"
 #include "rigid_body_sim/rotation.hpp"
 
 namespace rigid_body_sim {
@@ -17,16 +16,16 @@ inline void freeSpinWithoutGyroscopicTerm(BodyState& body, const Vector3d& I, do
 /// Drift: free motion for h [s], in which P and L do not change. `Rotation` gives the attitude
 /// after it, from the state, the principal moments and h.
 template <class Rotation, Gyroscopic gyroscopic>
-void drift(Bodies& bodies, double h) {
+void drift(Bodies& bodies, double h, const Ungyroscopic<gyroscopic>& ungyroscopic) {
   for (Eigen::Index i = 0; i < bodies.count(); ++i) {
     BodyState body = bodies.state(i);
     body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
     // Without spin, as a point mass always is, there is no rotation to compute.
     if (!body.L_WBcm_W.isZero(0)) {
-      if constexpr (gyroscopic == Gyroscopic::kOn)
-        body.q_WB = Rotation()(body, bodies.moments(i), h);
-      else
+      if (ungyroscopic.has(i))
         freeSpinWithoutGyroscopicTerm(body, bodies.moments(i), h);
+      else
+        body.q_WB = Rotation()(body, bodies.moments(i), h);
     }
     bodies.setState(i, body);
   }

@@ -70,37 +70,54 @@ struct Spin {
 };
 
 /// Kicks and exact free flight between them.
+template <Gyroscopic gyroscopic>
 class Exact : public Integrator {
  public:
-  explicit Exact(Composition composition) : composition_(std::move(composition)) {}
+  Exact(const IntegratorOptions& options, Composition composition)
+      : ungyroscopic_(options.ungyroscopic), composition_(std::move(composition)) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     recall(bodies);
     if (effects.empty()) return drift(bodies, h);
     double t = time_s;
     for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
-      kick(bodies, effects.evaluate(bodies, t), composition_.kicks[i] * h);
+      if (effects.hasKicks()) {
+        const double kick_s = composition_.kicks[i] * h;
+        kick(bodies, effects.evaluateKicks(bodies, t, kick_s), kick_s);
+      }
       if (i == composition_.drifts.size()) break;
-      drift(bodies, composition_.drifts[i] * h);
-      t += composition_.drifts[i] * h;
+      const double drift_s = composition_.drifts[i] * h;
+      driftUnderFlows(bodies, effects, t, drift_s);
+      t += drift_s;
     }
   }
 
  private:
+  void driftUnderFlows(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+    if (!effects.hasFlows()) return drift(bodies, h);
+    effects.beforeDrift(bodies, time_s, h);
+    recall(bodies);
+    drift(bodies, h);
+    effects.afterDrift(bodies, time_s, h);
+    recall(bodies);
+  }
+
   /// Takes up the bodies that somebody else has moved.
   void recall(const Bodies& bodies) {
     const auto known = static_cast<Eigen::Index>(spins_.size());
     for (Eigen::Index i = 0; i < bodies.count(); ++i) {
       if (i < known && isKnown(spins_[i], bodies, i)) continue;
-      const Eigen::Vector4d q_WB = bodies.q_WB.row(i);
-      const Vector3d L_W = bodies.L_WBcm_W.row(i);
-      const Spin spin = {Quaterniond(q_WB), L_W, momentumInBody(Quaterniond(q_WB), L_W),
-                         InverseMoments(bodies.moments(i))};
       if (i < known)
-        spins_[i] = spin;
+        spins_[i] = spinOf(bodies, i);
       else
-        spins_.push_back(spin);
+        spins_.push_back(spinOf(bodies, i));
     }
+  }
+
+  static Spin spinOf(const Bodies& bodies, Eigen::Index i) {
+    const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(i)));
+    const Vector3d L_W = bodies.L_WBcm_W.row(i);
+    return {q_WB, L_W, momentumInBody(q_WB, L_W), InverseMoments(bodies.moments(i))};
   }
 
   static bool isKnown(const Spin& spin, const Bodies& bodies, Eigen::Index i) {
@@ -133,6 +150,10 @@ class Exact : public Integrator {
       Spin& spin = spins_[i];
       // Without spin, as a point mass always is, there is no rotation to compute.
       if (spin.L_W.isZero(0)) continue;
+      if (ungyroscopic_.has(i)) {
+        turnAtConstantRate(bodies, i, h);
+        continue;
+      }
       if (spin.drift_s != h)
         rotate(spin, bodies.moments(i), h);
       else if (spin.is_coasting)
@@ -144,6 +165,13 @@ class Exact : public Integrator {
       bodies.q_WB(i, 2) = spin.q_WB.z();
       bodies.q_WB(i, 3) = spin.q_WB.w();
     }
+  }
+
+  void turnAtConstantRate(Bodies& bodies, Eigen::Index i, double h) {
+    BodyState body = bodies.state(i);
+    freeSpinWithoutGyroscopicTerm(body, bodies.moments(i), h);
+    bodies.setState(i, body);
+    spins_[i] = spinOf(bodies, i);
   }
 
   static void rotate(Spin& spin, const Vector3d& I, double h) {
@@ -179,34 +207,13 @@ class Exact : public Integrator {
     spin.q_WB = renormalized(Quaterniond(1, half.x(), half.y(), half.z()) * spin.q_WB);
   }
 
+  Ungyroscopic<gyroscopic> ungyroscopic_;
   Composition composition_;
   std::vector<Spin> spins_;
 };
 
-/// The same kicks without the gyroscopic term.
-class Ungyroscopic : public Integrator {
- public:
-  explicit Ungyroscopic(Composition composition) : composition_(std::move(composition)) {}
-
-  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    struct Unused {};
-    if (effects.empty()) return drift<Unused, Gyroscopic::kOff>(bodies, h);
-    double t = time_s;
-    for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
-      kick(bodies, effects.evaluate(bodies, t), composition_.kicks[i] * h);
-      if (i == composition_.drifts.size()) break;
-      drift<Unused, Gyroscopic::kOff>(bodies, composition_.drifts[i] * h);
-      t += composition_.drifts[i] * h;
-    }
-  }
-
- private:
-  Composition composition_;
-};
-
 std::unique_ptr<Integrator> make(Composition composition, const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn) return std::make_unique<Exact>(std::move(composition));
-  return std::make_unique<Ungyroscopic>(std::move(composition));
+  return makeFor<Exact>(options, std::move(composition));
 }
 
 }  // namespace

@@ -16,22 +16,30 @@ struct ConstantRate {
 
 enum class PoseMovesWith { kOldMomentum, kNewMomentum };
 
-template <PoseMovesWith pose_moves_with, Gyroscopic gyroscopic>
-class MomentumEuler : public Integrator {
- public:
-  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    const Wrenches* wrenches = effects.empty() ? nullptr : &effects.evaluate(bodies, time_s);
-    if (wrenches && pose_moves_with == PoseMovesWith::kNewMomentum) kick(bodies, *wrenches, h);
-    drift<ConstantRate, gyroscopic>(bodies, h);
-    if (wrenches && pose_moves_with == PoseMovesWith::kOldMomentum) kick(bodies, *wrenches, h);
-  }
+template <PoseMovesWith pose_moves_with>
+struct MomentumEuler {
+  template <Gyroscopic gyroscopic>
+  class Method : public Integrator {
+   public:
+    explicit Method(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
+
+    void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+      const Wrenches* wrenches =
+          effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+      if (wrenches && pose_moves_with == PoseMovesWith::kNewMomentum) kick(bodies, *wrenches, h);
+      driftWithFlows(bodies, effects, time_s, h,
+                     [&] { drift<ConstantRate>(bodies, h, ungyroscopic_); });
+      if (wrenches && pose_moves_with == PoseMovesWith::kOldMomentum) kick(bodies, *wrenches, h);
+    }
+
+   private:
+    Ungyroscopic<gyroscopic> ungyroscopic_;
+  };
 };
 
 template <PoseMovesWith pose_moves_with>
 std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn)
-    return std::make_unique<MomentumEuler<pose_moves_with, Gyroscopic::kOn>>();
-  return std::make_unique<MomentumEuler<pose_moves_with, Gyroscopic::kOff>>();
+  return makeFor<MomentumEuler<pose_moves_with>::template Method>(options);
 }
 
 }  // namespace

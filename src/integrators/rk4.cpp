@@ -3,6 +3,7 @@
 
 #include "integrators/body_momentum.hpp"
 #include "integrators/families.hpp"
+#include "integrators/ungyroscopic.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -28,22 +29,28 @@ Vector3d mean(const std::array<Stage, 4>& k, Part part) {
 template <Gyroscopic gyroscopic>
 class Rk4 : public Integrator {
  public:
+  explicit Rk4(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
+
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     stages_.resize(static_cast<std::size_t>(bodies.count()));
     momenta_.resize(stages_.size());
     if (effects.empty()) return stepFree(bodies, h);
     stage_bodies_ = bodies;
     constexpr std::array<double, 4> c = {0, 0.5, 0.5, 1};
+    constexpr std::array<double, 4> b = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     for (int s = 0; s < 4; ++s) {
       const Wrenches& wrenches =
-          effects.evaluate(s == 0 ? bodies : stage_bodies_, time_s + c[s] * h);
+          effects.evaluate(s == 0 ? bodies : stage_bodies_, time_s + c[s] * h, b[s] * h);
+      const Column3& v_WBcm = effects.instant().v_WBcm();
       for (Eigen::Index i = 0; i < bodies.count(); ++i) {
         if (s == 0) momenta_[i] = bodyMomentum(bodies.state(i));
+        stages_[i][s].v_WBcm = v_WBcm.row(i);
         finishStage(bodies, i, s, {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)}, h);
         if (s < 3) beginStage(bodies, i, s + 1, h);
       }
     }
     for (Eigen::Index i = 0; i < bodies.count(); ++i) endStep(bodies, i, h);
+    effects.stepTaken();
   }
 
  private:
@@ -80,17 +87,16 @@ class Rk4 : public Integrator {
     Stage& k = stages_[i][s];
     const Vector3d m_B = stageMomentum(i, s, h);
     k.w_B = m_B.cwiseQuotient(bodies.moments(i));
-    k.m_rate_B = momentumRate<gyroscopic>(m_B, k.w_B, t_B);
+    k.m_rate_B = momentumRate(ungyroscopic_.of(i), m_B, k.w_B, t_B);
   }
 
   /// The rates of stage s from the wrench at it.
   void finishStage(const Bodies& bodies, Eigen::Index i, int s, const Wrench& wrench, double h) {
     Stage& k = stages_[i][s];
-    const BodyState at = s == 0 ? bodies.state(i) : stage_bodies_.state(i);
-    k.v_WBcm = at.P_WB / bodies.mass(i);
+    const ColumnQ& q_WB = s == 0 ? bodies.q_WB : stage_bodies_.q_WB;
     k.f_W = wrench.f_F;
     k.t_W = wrench.t_Q_F;
-    setRates(bodies, i, s, at.q_WB.conjugate() * k.t_W, h);
+    setRates(bodies, i, s, Quaterniond(Eigen::Vector4d(q_WB.row(i))).conjugate() * k.t_W, h);
   }
 
   /// The state at which the effects of stage s are evaluated.
@@ -116,10 +122,11 @@ class Rk4 : public Integrator {
         h * mean(k, [](const Stage& s) { return s.w_B; }) + (h * h / 12) * k[0].w_B.cross(k[3].w_B);
     const Vector3d m_B = momenta_[i] + h * mean(k, [](const Stage& s) { return s.m_rate_B; });
     const Vector3d L_W = body.L_WBcm_W + h * mean(k, [](const Stage& s) { return s.t_W; });
-    setRotation<gyroscopic>(body, body.q_WB * rotationExp(turn), m_B, L_W);
+    setRotation(ungyroscopic_.of(i), body, body.q_WB * rotationExp(turn), m_B, L_W);
     bodies.setState(i, body);
   }
 
+  Ungyroscopic<gyroscopic> ungyroscopic_;
   Bodies stage_bodies_;
   std::vector<std::array<Stage, 4>> stages_;
   std::vector<Vector3d> momenta_;  // in body axes, at the beginning of the step
@@ -128,8 +135,7 @@ class Rk4 : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> makeRk4(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn) return std::make_unique<Rk4<Gyroscopic::kOn>>();
-  return std::make_unique<Rk4<Gyroscopic::kOff>>();
+  return makeFor<Rk4>(options);
 }
 
 }  // namespace rigid_body_sim

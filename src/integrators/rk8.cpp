@@ -7,6 +7,7 @@
 #include "integrators/body_momentum.hpp"
 #include "integrators/dop853.hpp"
 #include "integrators/families.hpp"
+#include "integrators/ungyroscopic.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -52,22 +53,22 @@ Moment startOf(const Bodies& bodies, Eigen::Index i) {
 }
 
 /// The first two parts of the rates, at an attitude that need not be of unit length.
-template <Gyroscopic gyroscopic, int size>
-void setRotationRates(Rates<size>& rates, const Eigen::Vector4d& q, const Vector3d& m_B,
-                      const Vector3d& I, const Vector3d& t_B) {
+template <int size>
+void setRotationRates(Gyroscopic gyroscopic, Rates<size>& rates, const Eigen::Vector4d& q,
+                      const Vector3d& m_B, const Vector3d& I, const Vector3d& t_B) {
   const Vector3d w_B = m_B.cwiseQuotient(I);
   const Quaterniond half_w(0, 0.5 * w_B.x(), 0.5 * w_B.y(), 0.5 * w_B.z());
   rates.template segment<4>(kAttitude) = (Quaterniond(q) * half_w).coeffs();
-  rates.template segment<3>(kMomentum) = momentumRate<gyroscopic>(m_B, w_B, t_B);
+  rates.template segment<3>(kMomentum) = momentumRate(gyroscopic, m_B, w_B, t_B);
   rates(kMomentum + 3) = 0;
 }
 
-template <Gyroscopic gyroscopic, int size>
-void endRotation(BodyState& body, const Moment& start, const Rates<size>& step,
-                 const Vector3d& dL_W) {
+template <int size>
+void endRotation(Gyroscopic gyroscopic, BodyState& body, const Moment& start,
+                 const Rates<size>& step, const Vector3d& dL_W) {
   const Vector3d dm_B = step.template segment<3>(kMomentum);
   const Eigen::Vector4d dq = step.template segment<4>(kAttitude);
-  setRotation<gyroscopic>(body, Quaterniond(Eigen::Vector4d(start.state.q_WB.coeffs() + dq)),
+  setRotation(gyroscopic, body, Quaterniond(Eigen::Vector4d(start.state.q_WB.coeffs() + dq)),
                           start.m_B + dm_B, start.state.L_WBcm_W + dL_W);
 }
 
@@ -82,6 +83,8 @@ double relative(const Rates<size>& error, int part, double scale) {
 template <Gyroscopic gyroscopic>
 class DormandPrince {
  public:
+  explicit DormandPrince(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
+
   /// One step of h [s] from time_s.
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
     if (effects.empty()) {
@@ -90,6 +93,7 @@ class DormandPrince {
     }
     tryStep(bodies, effects, time_s, h);
     take(bodies, h);
+    effects.stepTaken();
   }
 
   /// Works out a step without taking it.
@@ -103,9 +107,11 @@ class DormandPrince {
     for (int s = 0; s < Dop853::kStages; ++s) {
       if (s > 0)
         for (Eigen::Index i = 0; i < bodies.count(); ++i) beginStage(i, s, h);
-      const Wrenches& wrenches = effects.evaluate(stage_bodies_, time_s + Dop853::c[s] * h);
+      const Wrenches& wrenches =
+          effects.evaluate(stage_bodies_, time_s + Dop853::c[s] * h, weightOf(s) * h);
+      const Column3& v_WBcm = effects.instant().v_WBcm();
       for (Eigen::Index i = 0; i < bodies.count(); ++i)
-        finishStage(i, s, {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)});
+        finishStage(i, s, v_WBcm.row(i), {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)});
     }
   }
 
@@ -132,13 +138,20 @@ class DormandPrince {
       Vector3d dL_W = Vector3d::Zero();
       for (const Dop853::Weight& b : Dop853::b) dL_W += (h * b.value) * torques_[i][b.stage];
       if (!starts_[i].m_B.isZero(0) || !dL_W.isZero(0) || !step.segment<4>(kMomentum).isZero(0))
-        endRotation<gyroscopic>(body, starts_[i], step, dL_W);
+        endRotation(ungyroscopic_.of(i), body, starts_[i], step, dL_W);
       bodies.setState(i, body);
     }
   }
 
  private:
-  static void stepFree(Bodies& bodies, Eigen::Index i, double h) {
+  /// Of stage s in the step.
+  static double weightOf(int s) {
+    for (const Dop853::Weight& b : Dop853::b)
+      if (b.stage == s) return b.value;
+    return 0;
+  }
+
+  void stepFree(Bodies& bodies, Eigen::Index i, double h) const {
     const Moment start = startOf(bodies, i);
     BodyState body = start.state;
     body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
@@ -149,9 +162,10 @@ class DormandPrince {
         const Rates<kFree> so_far = h * stageSum(k, s);
         const Eigen::Vector4d q = start.state.q_WB.coeffs() + so_far.matrix().segment<4>(kAttitude);
         const Vector3d m_B = start.m_B + so_far.matrix().segment<3>(kMomentum);
-        setRotationRates<gyroscopic>(k[s], q, m_B, I, Vector3d::Zero());
+        setRotationRates(ungyroscopic_.of(i), k[s], q, m_B, I, Vector3d::Zero());
       }
-      endRotation<gyroscopic>(body, start, Rates<kFree>(h * sum(k, Dop853::b)), Vector3d::Zero());
+      endRotation(ungyroscopic_.of(i), body, start, Rates<kFree>(h * sum(k, Dop853::b)),
+                  Vector3d::Zero());
     }
     bodies.setState(i, body);
   }
@@ -171,13 +185,13 @@ class DormandPrince {
     stage_bodies_.setState(i, at);
   }
 
-  void finishStage(Eigen::Index i, int s, const Wrench& wrench) {
+  void finishStage(Eigen::Index i, int s, const Vector3d& v_WBcm, const Wrench& wrench) {
     const BodyState& at = stage_[i].state;
     Rates<kForced>& k = stages_[i][s];
-    setRotationRates<gyroscopic>(k, at.q_WB.coeffs(), stage_[i].m_B, stage_bodies_.moments(i),
-                                 at.q_WB.conjugate() * wrench.t_Q_F);
+    setRotationRates(ungyroscopic_.of(i), k, at.q_WB.coeffs(), stage_[i].m_B,
+                     stage_bodies_.moments(i), at.q_WB.conjugate() * wrench.t_Q_F);
     torques_[i][s] = wrench.t_Q_F;
-    k.matrix().segment<3>(kVelocity) = at.P_WB / stage_bodies_.mass(i);
+    k.matrix().segment<3>(kVelocity) = v_WBcm;
     k(kVelocity + 3) = k(kForce + 3) = 0;
     k.matrix().segment<3>(kForce) = wrench.f_F;
   }
@@ -202,6 +216,7 @@ class DormandPrince {
     return e5 == 0 ? 0 : e5 * e5 / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
   }
 
+  Ungyroscopic<gyroscopic> ungyroscopic_;
   Bodies stage_bodies_;
   std::vector<Moment> starts_;
   std::vector<Moment> stage_;  // the bodies at the present stage, as in stage_bodies_
@@ -212,6 +227,8 @@ class DormandPrince {
 template <Gyroscopic gyroscopic>
 class Rk8 : public Integrator {
  public:
+  explicit Rk8(const IntegratorOptions& options) : method_(options) {}
+
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     method_.step(bodies, effects, time_s, h);
   }
@@ -225,7 +242,8 @@ class Rk8 : public Integrator {
 template <Gyroscopic gyroscopic>
 class Adaptive : public Integrator {
  public:
-  explicit Adaptive(double tolerance) : tolerance_(tolerance) {}
+  explicit Adaptive(const IntegratorOptions& options)
+      : method_(options), tolerance_(options.tolerance) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     const double least = kLeast * std::abs(h);
@@ -243,8 +261,11 @@ class Adaptive : public Integrator {
         return takeAsItIs(bodies, effects, time_s + done, h - done);
       if (error <= allowed || is_least) {
         method_.take(bodies, dt);
+        effects.stepTaken();
         if (is_last) return;
         done += dt;
+      } else {
+        effects.stepGivenUp();
       }
       const double factor = error == 0 ? 5 : 0.9 * std::pow(allowed / error, 1.0 / 8);
       const double wanted =
@@ -259,8 +280,10 @@ class Adaptive : public Integrator {
 
   /// What is left of the step, under wrenches that are no numbers: no smaller step would help.
   void takeAsItIs(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
+    effects.stepGivenUp();
     method_.tryStep(bodies, effects, time_s, h);
     method_.take(bodies, h);
+    effects.stepTaken();
   }
 
   /// A fifth of a radian of the fastest body.
@@ -279,14 +302,11 @@ class Adaptive : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> makeRk8(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn) return std::make_unique<Rk8<Gyroscopic::kOn>>();
-  return std::make_unique<Rk8<Gyroscopic::kOff>>();
+  return makeFor<Rk8>(options);
 }
 
 std::unique_ptr<Integrator> makeAdaptive(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOn)
-    return std::make_unique<Adaptive<Gyroscopic::kOn>>(options.tolerance);
-  return std::make_unique<Adaptive<Gyroscopic::kOff>>(options.tolerance);
+  return makeFor<Adaptive>(options);
 }
 
 }  // namespace rigid_body_sim

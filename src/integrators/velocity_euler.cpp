@@ -2,6 +2,8 @@
 // the quaternion exponential of section 6 for the attitude. They are here as what most engines do,
 // and as the yardstick of what the others cost; the tests show where they fail.
 #include "integrators/families.hpp"
+#include "integrators/kick.hpp"
+#include "integrators/ungyroscopic.hpp"
 #include "rigid_body_sim/rotation.hpp"
 #include "rigid_body_sim/wrench.hpp"
 
@@ -41,18 +43,32 @@ Vector3d nextAngularVelocity(const Vector3d& w_B, const Vector3d& t_B, const Vec
 }
 
 template <PoseMovesWith pose_moves_with, Gyration gyration>
-class VelocityEuler : public Integrator {
- public:
-  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    const Wrenches* wrenches = effects.empty() ? nullptr : &effects.evaluate(bodies, time_s);
-    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-      Wrench applied;
-      if (wrenches) applied = {wrenches->f_W.row(i), wrenches->t_Bcm_W.row(i)};
-      stepBody(bodies, i, applied, h);
-    }
-  }
+struct VelocityEuler {
+  template <Gyroscopic gyroscopic>
+  class Method : public Integrator {
+   public:
+    explicit Method(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
 
- private:
+    void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+      const Wrenches* wrenches =
+          effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+      driftWithFlows(bodies, effects, time_s, h, [&] {
+        for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+          Wrench applied;
+          if (wrenches) applied = {wrenches->f_W.row(i), wrenches->t_Bcm_W.row(i)};
+          if (ungyroscopic_.has(i))
+            stepBody<Gyration::kNone>(bodies, i, applied, h);
+          else
+            stepBody<gyration>(bodies, i, applied, h);
+        }
+      });
+    }
+
+   private:
+    Ungyroscopic<gyroscopic> ungyroscopic_;
+  };
+
+  template <Gyration its_gyration>
   static void stepBody(Bodies& bodies, Eigen::Index i, const Wrench& applied, double h) {
     BodyState body = bodies.state(i);
     const double mass = bodies.mass(i);
@@ -62,7 +78,7 @@ class VelocityEuler : public Integrator {
     const Vector3d t_B = body.q_WB.conjugate() * applied.t_Q_F;
     const Velocities old = {velocity(body, mass), body.q_WB * w_B};
     const Velocities next = {old.v_WBcm + (h / mass) * applied.f_F,
-                             body.q_WB * nextAngularVelocity<gyration>(w_B, t_B, I, h)};
+                             body.q_WB * nextAngularVelocity<its_gyration>(w_B, t_B, I, h)};
 
     const Velocities& moving = pose_moves_with == PoseMovesWith::kNewVelocity ? next : old;
     body.p_WBcm += h * moving.v_WBcm;
@@ -75,9 +91,7 @@ class VelocityEuler : public Integrator {
 
 template <PoseMovesWith pose_moves_with, Gyration gyration>
 std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
-  if (options.gyroscopic == Gyroscopic::kOff)
-    return std::make_unique<VelocityEuler<pose_moves_with, Gyration::kNone>>();
-  return std::make_unique<VelocityEuler<pose_moves_with, gyration>>();
+  return makeFor<VelocityEuler<pose_moves_with, gyration>::template Method>(options);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class Counter : public Effect {
   explicit Counter(long& count) : count_(count) {}
   std::string name() const override { return "counter"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Bodies&, double, Wrenches&) const override { ++count_; }
+  void addWrenches(const Instant&, Wrenches&) const override { ++count_; }
 
  private:
   long& count_;

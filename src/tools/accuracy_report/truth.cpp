@@ -48,7 +48,7 @@ reference::PushLaw pushLaw(const Effects& effects, const Bodies& bodies, Eigen::
     alone.setState(0, reference::rounded(state));
     Wrenches wrenches = {Column3::Zero(1, 3), Column3::Zero(1, 3)};
     for (const auto& effect : effects)
-      effect->addWrenches(alone, start_s + static_cast<double>(time_s), wrenches);
+      effect->addWrenches(Instant(alone, start_s + static_cast<double>(time_s)), wrenches);
     reference::Push push;
     push.f_W = wrenches.f_W.row(0).transpose().cast<reference::Real>();
     push.t_Bcm_W = wrenches.t_Bcm_W.row(0).transpose().cast<reference::Real>();
@@ -83,7 +83,7 @@ TrueTrajectory bestKnown(const Scene& scene, Tick ticks, Tick every) {
   TrueTrajectory truth = flyTruly(scene, ticks, every);
   const double angular_speed = largestAngularSpeed(truth.trajectory);
   const double time_s = static_cast<double>(ticks) * scene.step_s();
-  if (scene.gyroscopic == Gyroscopic::kOff ||
+  if (!ungyroscopicBodies(scene).empty() || truth.trajectory.samples.front().hasAddedMass() ||
       angular_speed * time_s * static_cast<double>(scene.bodies.size()) > kMostTurns)
     return truth;
   const std::size_t piece = samplesAPiece(truth.trajectory, scene, angular_speed);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "rigid_body_sim/effect_row.hpp"
+
+namespace rigid_body_sim {
+
+/// The effect of this name from a plug-in, see rigid_body_sim/effect_plugin.hpp; null if there is no
+/// library of it on the dynamic linker's path.
+/// @throws std::invalid_argument if there is one that does not fit
+const EffectRow* effectPlugin(const std::string& name);
+
+}  // namespace rigid_body_sim

@@ -1,0 +1,136 @@
+#include "core/scene_effects.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/effect_plugin.hpp"
+#include "effects/registry.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+/// The bodies that an effect acts on: all but those whose block says `<effect>: false`. They may
+/// say so of an effect that the scene does not have, but not ask for one.
+std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene_has_it,
+                                           const std::vector<Parameters>& blocks) {
+  std::vector<EffectBlock::Member> members;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const bool has_map = blocks[i].isMap(effect);
+    if (!has_map && !blocks[i].boolean(effect, scene_has_it)) continue;
+    if (!scene_has_it)
+      blocks[i].refuse(effect, "the scene has no such effect; list it under `effects`");
+    members.push_back({static_cast<Eigen::Index>(i),
+                       has_map ? blocks[i].child(effect) : Parameters({}, "bodies." + effect)});
+  }
+  return members;
+}
+
+EffectBlock blockOf(const EffectRow& row, const Parameters& effects,
+                    const std::vector<Parameters>& bodies, Scene& scene) {
+  EffectBlock block{row.name, Parameters({}, ""), {}, {}, scene.bodies};
+  if (row.layout == BlockLayout::kList) {
+    if (effects.has(row.name)) block.entries = effects.children(row.name);
+    return block;
+  }
+  block.members = membersOf(row.name, effects.has(row.name), bodies);
+  if (effects.has(row.name)) block.scene = effects.child(row.name);
+  return block;
+}
+
+void refuseUnknown(const EffectBlock& block) {
+  block.scene.refuseUnknown();
+  for (const Parameters& entry : block.entries) entry.refuseUnknown();
+  for (const auto& member : block.members) member.block.refuseUnknown();
+}
+
+/// The built-in effects, and those of plug-ins that the scene names.
+std::vector<EffectRow> rowsFor(const Parameters& effects) {
+  std::vector<EffectRow> rows = effectRegistry();
+  for (const std::string& key : effects.keys()) {
+    const auto is_it = [&](const EffectRow& row) { return row.name == key; };
+    if (key == "gyroscopic" || std::any_of(rows.begin(), rows.end(), is_it)) continue;
+    try {
+      if (const EffectRow* row = effectPlugin(key)) rows.push_back(*row);
+    } catch (const std::invalid_argument& error) {
+      effects.refuse(key, error.what());
+    }
+  }
+  return rows;
+}
+
+void readGyroscopic(const Parameters& effects, const std::vector<Parameters>& bodies,
+                    Scene& scene) {
+  scene.gyroscopic = effects.boolean("gyroscopic", true) ? Gyroscopic::kOn : Gyroscopic::kOff;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].has("gyroscopic"))
+      scene.bodies[i].gyroscopic =
+          bodies[i].boolean("gyroscopic") ? Gyroscopic::kOn : Gyroscopic::kOff;
+}
+
+bool isSpherical(const SceneBody& body) {
+  if (body.is_point_mass) return true;
+  const Vector3d I = bodyFrame(body).I_BBcm_B;
+  return I(0) == I(2);
+}
+
+bool isGyroscopicOn(const SceneBody& body, const Scene& scene) {
+  return body.gyroscopic.value_or(scene.gyroscopic) == Gyroscopic::kOn;
+}
+
+std::string countOf(std::size_t some, std::size_t all) {
+  return std::to_string(some) + " of " + std::to_string(all);
+}
+
+}  // namespace
+
+void readEffects(const Parameters& parameters, const std::vector<Parameters>& bodies,
+                 Scene& scene) {
+  const Parameters effects = parameters.child("effects");
+  readGyroscopic(effects, bodies, scene);
+  for (const EffectRow& row : rowsFor(effects)) {
+    EffectBlock block = blockOf(row, effects, bodies, scene);
+    if (!effects.has(row.name)) continue;
+    if (row.layout == BlockLayout::kMap && block.members.empty())
+      block.why_nothing = "it acts on no body";
+    const EffectList made = row.make(block);
+    refuseUnknown(block);
+    if (made.empty()) scene.elided.push_back(row.name + ": " + block.why_nothing);
+    scene.effects.insert(scene.effects.end(), made.begin(), made.end());
+  }
+  effects.refuseUnknown();
+}
+
+std::vector<Eigen::Index> ungyroscopicBodies(const Scene& scene,
+                                             const std::vector<Eigen::Index>& some) {
+  std::vector<Eigen::Index> off;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const SceneBody& body = scene.bodies[some[k]];
+    if (!isGyroscopicOn(body, scene) && !isSpherical(body))
+      off.push_back(static_cast<Eigen::Index>(k));
+  }
+  return off;
+}
+
+std::vector<Eigen::Index> ungyroscopicBodies(const Scene& scene) {
+  std::vector<Eigen::Index> all(scene.bodies.size());
+  std::iota(all.begin(), all.end(), Eigen::Index(0));
+  return ungyroscopicBodies(scene, all);
+}
+
+std::vector<std::string> elisions(const Scene& scene) {
+  std::vector<std::string> lines = scene.elided;
+  std::size_t spheres = 0, points = 0;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.is_point_mass)
+      ++points;
+    else if (isSpherical(body))
+      ++spheres;
+  }
+  const std::size_t all = scene.bodies.size();
+  if (spheres > 0) lines.push_back("gyroscopic for " + countOf(spheres, all) + ": spherical");
+  if (points > 0) lines.push_back("rotation for " + countOf(points, all) + ": point masses");
+  return lines;
+}
+
+}  // namespace rigid_body_sim

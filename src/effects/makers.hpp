@@ -1,0 +1,11 @@
+#pragma once
+
+#include "rigid_body_sim/effect_row.hpp"
+
+// The makers of all effects, for the registry; each has its own source file.
+namespace rigid_body_sim {
+
+EffectList makeDamping(EffectBlock& block);
+EffectList makeGravity(EffectBlock& block);
+
+}  // namespace rigid_body_sim
