@@ -19,7 +19,7 @@ class UniformGravity : public Effect {
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     const Bodies& bodies = now.bodies();
     if (static_cast<Eigen::Index>(members_.size()) == bodies.count()) {  // all: a column at a time
-      wrenches.f_W += bodies.mass * g_W_.transpose();
+      for (int k = 0; k < 3; ++k) wrenches.f_W.col(k) += g_W_(k) * bodies.mass;
       return;
     }
     for (const auto& [i, none] : members_) wrenches.f_W.row(i) += bodies.mass(i) * g_W_.transpose();
@@ -53,7 +53,7 @@ std::shared_ptr<const Effect> uniformGravity(const Vector3d& g_W,
 
 EffectList makeGravity(EffectBlock& block) {
   const Vector3d g_W = block.scene.vector3("acceleration", finite("m/s^2"));
-  if (g_W.isZero(0)) return {};
+  if (g_W.isZero(0) || block.members.empty()) return {};
   std::vector<Eigen::Index> bodies;
   for (const auto& member : block.members) bodies.push_back(member.body);
   return {uniformGravity(g_W, std::move(bodies))};
