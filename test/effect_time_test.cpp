@@ -12,9 +12,7 @@ class Recorder : public Effect {
  public:
   std::string name() const override { return "recorder"; }
   std::size_t bodyCount() const override { return 1; }
-  void addWrenches(const Instant& now, Wrenches&) const override {
-    times.push_back(now.time_s());
-  }
+  void addWrenches(const Instant& now, Wrenches&) const override { times.push_back(now.time_s()); }
 
   mutable std::vector<double> times;
 };

@@ -136,7 +136,8 @@ TEST_P(IntegratorExtremes, PushesBetweenFreeFlightsCount) {
     fly(false, 0.01, 10);
     fly(true, 0.01, 2);
   }
-  // Measured: 9.4e-6 (split2), 2.8e-6 (exact), 2.7e-10 (rk4), 4e-13 (exact4), rounding for the rest.
+  // Measured: 9.4e-6 (split2), 2.8e-6 (exact), 2.7e-10 (rk4), 4e-13 (exact4), rounding for the
+  // rest.
   const double error = angleBetween(bodies.state(0).q_WB, reference::rounded(truth).q_WB);
   RecordProperty("error", std::to_string(error * 1e9) + "e-9");
   EXPECT_LE(error, GetParam().order == 2 ? 2e-5 : 1e-9);

@@ -75,8 +75,8 @@ class Effect {
   virtual double cost() const { return 0.5; }
 
   /// The same effect on some of the bodies alone, whose places in the list become their new
-  /// indices. It acts on those of them that it acts on here; that may be none (bodyCount() 0). Null,
-  /// as by default, if it cannot be divided: its bodies act on each other.
+  /// indices. It acts on those of them that it acts on here; that may be none (bodyCount() 0).
+  /// Null, as by default, if it cannot be divided: its bodies act on each other.
   virtual std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>&) const {
     return nullptr;
   }

@@ -25,10 +25,10 @@ struct EffectPlugin {
 }  // namespace rigid_body_sim
 
 /// Offers an effect; see above. `make` as EffectRow::make.
-#define RIGID_BODY_SIM_EFFECT(name, layout, make)                                            \
-  extern "C" __attribute__((visibility("default"))) const ::rigid_body_sim::EffectPlugin*    \
-  rigidBodySimEffect() {                                                                     \
-    static const ::rigid_body_sim::EffectPlugin plugin = {                                   \
-        ::rigid_body_sim::kEffectPluginVersion, {name, layout, make}};                       \
-    return &plugin;                                                                          \
+#define RIGID_BODY_SIM_EFFECT(name, layout, make)                                                 \
+  extern "C" __attribute__((visibility("default"))) const ::rigid_body_sim::EffectPlugin*         \
+  rigidBodySimEffect() {                                                                          \
+    static const ::rigid_body_sim::EffectPlugin plugin = {::rigid_body_sim::kEffectPluginVersion, \
+                                                          {name, layout, make}};                  \
+    return &plugin;                                                                               \
   }

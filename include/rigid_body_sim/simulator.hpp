@@ -103,7 +103,7 @@ struct EnergyBalance {
 };
 
 /// What one effect does to each body at an instant.
-struct EffectWrenches {
+struct WrenchesOfEffect {
   std::string name;
   Wrenches wrenches;
 };
@@ -160,7 +160,10 @@ class Simulator {
   std::vector<EffectCount> effectCounts() const;
 
   /// What each effect does at this instant, the held wrenches last.
-  std::vector<EffectWrenches> effectWrenches() const;
+  std::vector<WrenchesOfEffect> effectWrenches() const;
+
+  /// The sum of them on one body, about its centre of mass, in world axes.
+  Wrench wrenchOn(Eigen::Index body) const;
 
   EnergyBalance energy() const;
 

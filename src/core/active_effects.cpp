@@ -19,7 +19,8 @@ void ActiveEffects::remove(const Effect* effect) {
   const auto is_it = [effect](const Entry& entry) { return entry.effect == effect; };
   for (auto* entries : {&kicks_, &flows_}) {
     for (const Entry& entry : *entries)
-      if (is_it(entry)) rigid_body_sim::addUp({{effect->name(), entry.evaluations, entry.work_J}}, past_);
+      if (is_it(entry))
+        rigid_body_sim::addUp({{effect->name(), entry.evaluations, entry.work_J}}, past_);
     entries->erase(std::remove_if(entries->begin(), entries->end(), is_it), entries->end());
   }
 }

@@ -38,10 +38,10 @@ LinkMotion linkMotion(const BodyFrame& frame, const BodyState& body) {
   link.q_WL = body.q_WB * frame.q_LB.conjugate();
   link.p_WL = body.p_WBcm - link.q_WL * frame.p_LBcm;
   link.w_WL_L = frame.q_LB * angularVelocityInBody(body, frame.I_BBcm_B);
-  const Vector3d v_WBcm_L =
-      frame.has_added_mass ? Vector3d(frame.q_LB * frame.mass_matrix_B.llt().solve(
-                                                       body.q_WB.conjugate() * body.P_WB))
-                           : Vector3d(link.q_WL.conjugate() * velocity(body, frame.mass));
+  const Vector3d v_WBcm_L = frame.has_added_mass
+                                ? Vector3d(frame.q_LB * frame.mass_matrix_B.llt().solve(
+                                                            body.q_WB.conjugate() * body.P_WB))
+                                : Vector3d(link.q_WL.conjugate() * velocity(body, frame.mass));
   link.v_WL_L = velocityOfPoint(v_WBcm_L, link.w_WL_L, -frame.p_LBcm);
   return link;
 }

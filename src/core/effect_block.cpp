@@ -1,6 +1,6 @@
-#include "rigid_body_sim/effect_row.hpp"
-
 #include <set>
+
+#include "rigid_body_sim/effect_row.hpp"
 
 namespace rigid_body_sim {
 

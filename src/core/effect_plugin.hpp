@@ -6,8 +6,8 @@
 
 namespace rigid_body_sim {
 
-/// The effect of this name from a plug-in, see rigid_body_sim/effect_plugin.hpp; null if there is no
-/// library of it on the dynamic linker's path.
+/// The effect of this name from a plug-in, see rigid_body_sim/effect_plugin.hpp; null if there is
+/// no library of it on the dynamic linker's path.
 /// @throws std::invalid_argument if there is one that does not fit
 const EffectRow* effectPlugin(const std::string& name);
 

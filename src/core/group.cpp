@@ -190,10 +190,10 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
 std::vector<Group> groupsOf(const Scene& scene) {
   std::vector<Group> groups;
   for (const MethodOfBodies& part : methodsOf(scene))
-    groups.emplace_back(part.method,
-                        part.bodies.empty() ? ungyroscopicBodies(scene)
-                                            : ungyroscopicBodies(scene, part.bodies),
-                        effectsOn(part, scene), part.bodies);
+    groups.emplace_back(
+        part.method,
+        part.bodies.empty() ? ungyroscopicBodies(scene) : ungyroscopicBodies(scene, part.bodies),
+        effectsOn(part, scene), part.bodies);
   return groups;
 }
 
@@ -202,7 +202,8 @@ Group::Group(const Method& method, std::vector<Eigen::Index> ungyroscopic, Effec
     : method_(method),
       indices_(std::move(bodies)),
       effects_(std::move(effects)),
-      integrator_(integratorNamed(method.integrator).make({std::move(ungyroscopic), method.tolerance})) {
+      integrator_(
+          integratorNamed(method.integrator).make({std::move(ungyroscopic), method.tolerance})) {
   for (const auto& effect : effects_) active_.add(effect.get());
 }
 

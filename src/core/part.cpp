@@ -27,8 +27,8 @@ Part wholeOf(const Situation& now) {
   EffectList effects = now.scene.effects;
   if (auto held = now.held.restrictedTo(all); held->bodyCount() > 0)
     effects.push_back(std::move(held));
-  return {std::move(all),          now.bodies,         std::move(effects),
-          ungyroscopicBodies(now.scene), now.scene.step_s(), now.tick, now.shall_end};
+  return {std::move(all),     now.bodies, std::move(effects), ungyroscopicBodies(now.scene),
+          now.scene.step_s(), now.tick,   now.shall_end};
 }
 
 Flight::Flight(const Part& part, const Method& method)

@@ -26,7 +26,7 @@ struct Situation {
 struct Part {
   std::vector<Eigen::Index> indices;  ///< of the bodies in the scene
   Bodies bodies;
-  EffectList effects;  ///< held wrenches among them
+  EffectList effects;                      ///< held wrenches among them
   std::vector<Eigen::Index> ungyroscopic;  ///< places of those without the gyroscopic term
   double tick_s;
   Tick tick;

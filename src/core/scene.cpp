@@ -113,8 +113,8 @@ std::vector<Parameters> readBodies(const Parameters& parameters, Scene& scene) {
 
 std::string summaryOfGyroscopic(const Scene& scene) {
   const bool is_on = scene.gyroscopic == Gyroscopic::kOn;
-  const auto others = std::count_if(
-      scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& body) {
+  const auto others =
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const SceneBody& body) {
         return body.gyroscopic.value_or(scene.gyroscopic) != scene.gyroscopic;
       });
   std::string text = is_on ? "gyroscopic on" : "gyroscopic off";
@@ -211,7 +211,8 @@ std::string summary(const Scene& scene) {
     text << effect->name() << " (" << effect->bodyCount()
          << (effect->bodyCount() == 1 ? " body), " : " bodies), ");
   }
-  text << summaryOfGyroscopic(scene) << "; " << summaryOfMethods(scene) << ", step " << scene.step_s() << " s";
+  text << summaryOfGyroscopic(scene) << "; " << summaryOfMethods(scene) << ", step "
+       << scene.step_s() << " s";
   return text.str();
 }
 

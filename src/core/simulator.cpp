@@ -48,7 +48,8 @@ void copyState(const Bodies& from, Bodies& to) {
   to.L_WBcm_W = from.L_WBcm_W;
 }
 
-/// A number times zero is zero, but for what is not finite. Four sums, as one would wait for itself.
+/// A number times zero is zero, but for what is not finite. Four sums, as one would wait for
+/// itself.
 template <class Columns>
 bool allFinite(const Columns& columns) {
   const double* x = columns.data();
@@ -257,8 +258,8 @@ EnergyBalance Simulator::energy() const {
   return energy;
 }
 
-std::vector<EffectWrenches> Simulator::effectWrenches() const {
-  std::vector<EffectWrenches> all;
+std::vector<WrenchesOfEffect> Simulator::effectWrenches() const {
+  std::vector<WrenchesOfEffect> all;
   const Instant now(bodies_, time_s());
   const auto add = [&](const Effect& effect) {
     all.push_back({effect.name(), {}});
@@ -268,6 +269,15 @@ std::vector<EffectWrenches> Simulator::effectWrenches() const {
   for (const auto& effect : scene_.effects) add(*effect);
   if (applied_->bodyCount() > 0) add(*applied_);
   return all;
+}
+
+Wrench Simulator::wrenchOn(Eigen::Index body) const {
+  Wrench sum;
+  for (const WrenchesOfEffect& one : effectWrenches()) {
+    sum.f_F += one.wrenches.f_W.row(body);
+    sum.t_Q_F += one.wrenches.t_Bcm_W.row(body);
+  }
+  return sum;
 }
 
 const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->state() : nullptr; }

@@ -12,8 +12,7 @@ inline void kick(Bodies& bodies, const Wrenches& wrenches, double step_s) {
 
 /// The kick of all effects at `time_s` that have no flow.
 inline void kick(Bodies& bodies, ActiveEffects& effects, double time_s, double step_s) {
-  if (effects.hasKicks())
-    kick(bodies, effects.evaluateKicks(bodies, time_s, step_s), step_s);
+  if (effects.hasKicks()) kick(bodies, effects.evaluateKicks(bodies, time_s, step_s), step_s);
 }
 
 /// A drift of h [s] from `time_s` with the flows around it.

@@ -11,14 +11,17 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 const std::vector<IntegratorRow>& integrators() {
   static const std::vector<IntegratorRow> rows = {
-      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0, 2, 1, 1.5, 1.6, true,
+      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0, 2, 1, 1.5, 1.6,
+       true,
        "explicit Euler on (v, w), the founding text's first method; a tumbling body loses energy "
        "until it spins about one axis",
        makeExplicitEulerVelocity},
-      {"semi_implicit_velocity", 1, 1, true, false, false, false, false, kInf, 2, 2, 1, 1.9, 2.1, true,
+      {"semi_implicit_velocity", 1, 1, true, false, false, false, false, kInf, 2, 2, 1, 1.9, 2.1,
+       true,
        "semi-implicit Euler on (v, w), as most engines step; unstable with the gyroscopic term",
        makeSemiImplicitVelocity},
-      {"semi_implicit_newton", 1, 1, true, false, false, false, false, kInf, 2, 2, 1, 2.3, 2.5, true,
+      {"semi_implicit_newton", 1, 1, true, false, false, false, false, kInf, 2, 2, 1, 2.3, 2.5,
+       true,
        "semi-implicit Euler on (v, w), the gyroscopic term by one implicit Newton step, as game "
        "engines do; never infinite, but energy and angular momentum decay",
        makeSemiImplicitNewton},

@@ -69,7 +69,7 @@ void endRotation(Gyroscopic gyroscopic, BodyState& body, const Moment& start,
   const Vector3d dm_B = step.template segment<3>(kMomentum);
   const Eigen::Vector4d dq = step.template segment<4>(kAttitude);
   setRotation(gyroscopic, body, Quaterniond(Eigen::Vector4d(start.state.q_WB.coeffs() + dq)),
-                          start.m_B + dm_B, start.state.L_WBcm_W + dL_W);
+              start.m_B + dm_B, start.state.L_WBcm_W + dL_W);
 }
 
 /// Size of `part`, three or four numbers of `error`, relative to `scale`; zero of zero is zero.

@@ -138,6 +138,44 @@ nav_msgs::Odometry toOdometry(const Simulator& simulator, Eigen::Index body,
   return odometry;
 }
 
+namespace {
+
+geometry_msgs::Wrench wrenchOf(const Vector3d& force, const Vector3d& torque) {
+  geometry_msgs::Wrench wrench;
+  wrench.force = toMessage(force);
+  wrench.torque = toMessage(torque);
+  return wrench;
+}
+
+}  // namespace
+
+EffectWrenches toEffectWrenches(const Simulator& simulator, const std::string& world_frame,
+                                const ros::Time& stamp) {
+  EffectWrenches message;
+  message.header.stamp = stamp;
+  message.header.frame_id = world_frame;
+  for (const SceneBody& body : simulator.scene().bodies) message.names.push_back(body.name);
+  for (const rigid_body_sim::WrenchesOfEffect& one : simulator.effectWrenches()) {
+    message.effects.emplace_back();
+    message.effects.back().effect = one.name;
+    for (Eigen::Index i = 0; i < simulator.bodies().count(); ++i)
+      message.effects.back().wrenches.push_back(
+          wrenchOf(one.wrenches.f_W.row(i), one.wrenches.t_Bcm_W.row(i)));
+  }
+  return message;
+}
+
+geometry_msgs::WrenchStamped toAppliedWrench(const Simulator& simulator, Eigen::Index body,
+                                             const ros::Time& stamp) {
+  const Wrench wrench = simulator.wrenchOn(body);
+  const Quaterniond q_BW = simulator.state(body).q_WB.conjugate();
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = comFrameName(simulator.scene().bodies[body].name);
+  message.wrench = wrenchOf(q_BW * wrench.f_F, q_BW * wrench.t_Q_F);
+  return message;
+}
+
 geometry_msgs::TwistStamped toTwist(const Simulator& simulator, Eigen::Index body,
                                     const ros::Time& stamp) {
   geometry_msgs::TwistStamped twist;

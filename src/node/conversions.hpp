@@ -3,8 +3,10 @@
 #include <XmlRpcValue.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rigid_body_sim/BodyStates.h>
+#include <rigid_body_sim/EffectWrenches.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <string>
@@ -40,6 +42,14 @@ BodyStates toStates(const Simulator& simulator, const std::string& world_frame,
 /// Pose in the world, twist in the root link's axes, as nav_msgs/Odometry defines it.
 nav_msgs::Odometry toOdometry(const Simulator& simulator, Eigen::Index body,
                               const std::string& world_frame, const ros::Time& stamp);
+
+/// What each effect does to each body now.
+EffectWrenches toEffectWrenches(const Simulator& simulator, const std::string& world_frame,
+                                const ros::Time& stamp);
+
+/// What acts on the body now, in all, at <body>/com and in its axes.
+geometry_msgs::WrenchStamped toAppliedWrench(const Simulator& simulator, Eigen::Index body,
+                                             const ros::Time& stamp);
 
 geometry_msgs::TwistStamped toTwist(const Simulator& simulator, Eigen::Index body,
                                     const ros::Time& stamp);

@@ -22,11 +22,26 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "simulating");
   status.add("scene", summary(simulator_.scene()));
   status.add("tick", simulator_.tick());
+  reportEffects(status);
   reportPace(status);
   reportInputs(status);
   reportAccuracy(status);
   reportSpin(status);
   reportFrozen(status);
+}
+
+void Diagnostics::reportEffects(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  for (const EffectCount& count : simulator_.effectCounts())
+    status.add("evaluations of " + count.name, count.evaluations);
+  for (const std::string& elision : elisions(simulator_.scene()))
+    status.add("not computed", elision);
+  if (!simulator_.scene().energy_audit) return;
+  const EnergyBalance energy = simulator_.energy();
+  status.addf("energy", "%.9g J kinetic, %.9g J potential", energy.kinetic_J, energy.potential_J);
+  status.addf("work since the start",
+              "%.9g J of inputs, %.9g J of effects that are not conservative", energy.inputs_J,
+              energy.effects_J);
+  status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
 }
 
 void Diagnostics::reportPace(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -17,6 +17,7 @@ class Diagnostics {
 
  private:
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportEffects(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportInputs(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& status);

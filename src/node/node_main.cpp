@@ -81,6 +81,8 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   SimNode node(nh, private_nh, queue, std::move(scene), options);
   for (const std::string& warning : node.scene().warnings) ROS_WARN("%s", warning.c_str());
   ROS_INFO("%s", summary(node.scene()).c_str());
+  for (const std::string& elision : elisions(node.scene()))
+    ROS_INFO("not computed, as it would change nothing: %s", elision.c_str());
   std::vector<std::string> services;
   for (const char* name :
        {names::kPause, names::kStep, names::kReset, "get_loggers", "set_logger_level"})

@@ -47,6 +47,9 @@ Outputs::Outputs(ros::NodeHandle nh, const Simulator& simulator, const SimTime& 
       names::kTf, [this] { return toTf(simulator_, options_.world_frame, stamp()); });
   states_ = advertise<BodyStates>(
       names::kStates, [this] { return toStates(simulator_, options_.world_frame, stamp()); });
+  effect_wrenches_ = advertise<EffectWrenches>(names::kEffectWrenches, [this] {
+    return toEffectWrenches(simulator_, options_.world_frame, stamp());
+  });
   for (Eigen::Index i = 0; i < simulator.bodies().count(); ++i) {
     const std::string body = simulator.scene().bodies[i].name + "/";
     twists_.push_back(advertise<geometry_msgs::TwistStamped>(
@@ -54,6 +57,9 @@ Outputs::Outputs(ros::NodeHandle nh, const Simulator& simulator, const SimTime& 
     odoms_.push_back(advertise<nav_msgs::Odometry>(body + names::kOdom, [this, i] {
       return toOdometry(simulator_, i, options_.world_frame, stamp());
     }));
+    applied_wrenches_.push_back(advertise<geometry_msgs::WrenchStamped>(
+        body + names::kAppliedWrench,
+        [this, i] { return toAppliedWrench(simulator_, i, stamp()); }));
   }
   const bool is_latched = true;
   import_report_ = nh_.advertise<std_msgs::String>(names::kImportReport, 1, is_latched);
@@ -92,10 +98,14 @@ void Outputs::publish() {
   if (options_.publish_clock) clock_.publish(toClock(stamp()));
   tf_.publish(toTf(simulator_, options_.world_frame, stamp()));
   states_.publish(toStates(simulator_, options_.world_frame, stamp()));
+  if (effect_wrenches_.getNumSubscribers() > 0)
+    effect_wrenches_.publish(toEffectWrenches(simulator_, options_.world_frame, stamp()));
   for (Eigen::Index i = 0; i < simulator_.bodies().count(); ++i) {
     if (twists_[i].getNumSubscribers() > 0) twists_[i].publish(toTwist(simulator_, i, stamp()));
     if (odoms_[i].getNumSubscribers() > 0)
       odoms_[i].publish(toOdometry(simulator_, i, options_.world_frame, stamp()));
+    if (applied_wrenches_[i].getNumSubscribers() > 0)
+      applied_wrenches_[i].publish(toAppliedWrench(simulator_, i, stamp()));
   }
   gate_.pass();
 }

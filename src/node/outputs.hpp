@@ -56,6 +56,8 @@ class Outputs {
   ros::Publisher accuracy_bill_;
   std::vector<ros::Publisher> twists_;  // of each body
   std::vector<ros::Publisher> odoms_;
+  std::vector<ros::Publisher> applied_wrenches_;
+  ros::Publisher effect_wrenches_;
   SendGate gate_;
 };
 

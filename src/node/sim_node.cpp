@@ -37,6 +37,8 @@ SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::Callback
   services_.push_back(private_nh.advertiseService(names::kPause, &SimNode::pause, this));
   services_.push_back(private_nh.advertiseService(names::kStep, &SimNode::step, this));
   services_.push_back(private_nh.advertiseService(names::kReset, &SimNode::reset, this));
+  services_.push_back(
+      private_nh.advertiseService(names::kSwitchEffect, &SimNode::switchEffect, this));
 }
 
 void SimNode::run() {
@@ -162,6 +164,21 @@ bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& re
   publishTick();
   response.success = true;
   response.message = "initial state; time goes on";
+  return true;
+}
+
+bool SimNode::switchEffect(SwitchEffect::Request& request, SwitchEffect::Response& response) {
+  try {
+    simulator_.switchEffect(request.effect, request.active);
+  } catch (const std::invalid_argument& error) {
+    response.message = error.what();
+    return true;
+  }
+  response.success = true;
+  response.message = summary(simulator_.scene());
+  ROS_INFO("%s is switched %s from tick %ld on: %s", request.effect.c_str(),
+           request.active ? "on" : "off", static_cast<long>(simulator_.tick()),
+           response.message.c_str());
   return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rigid_body_sim/Step.h>
+#include <rigid_body_sim/SwitchEffect.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
@@ -44,6 +45,7 @@ class SimNode {
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool step(Step::Request& request, Step::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool switchEffect(SwitchEffect::Request& request, SwitchEffect::Response& response);
 
   ros::CallbackQueue& queue_;
   Simulator simulator_;
