@@ -24,6 +24,7 @@ struct Arguments {
   bool counts_instructions = false;
   bool lists_cases = false;
   Tick only_step = 0;
+  std::vector<std::string> only_effects;
   Plan plan;
 };
 
@@ -70,6 +71,16 @@ StepCommand stepCommand(const Arguments& arguments) {
   };
 }
 
+EffectStepCommand effectStepCommand(const StepCommand& command) {
+  return [command](const Method& method, const std::vector<std::string>& effects, Tick ticks) {
+    std::string names;
+    for (const std::string& effect : effects) names += (names.empty() ? "" : ",") + effect;
+    std::vector<std::string> words = command(method, ticks);
+    words.insert(words.end() - 1, "--only-effects=" + (names.empty() ? "none" : names));
+    return words;
+  };
+}
+
 /// A bar on a terminal; nothing into files.
 void showProgress(const std::string& what, double part) {
   static const bool is_terminal = isatty(STDERR_FILENO) == 1;
@@ -111,6 +122,9 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--only-step", arguments.only_step,
                  "step the one method so many ticks and end, for valgrind or perf to look at")
       ->check(within(1, 1e9, "ticks", true));
+  app.add_option("--only-effects", arguments.only_effects,
+                 "step with these of the scene's effects alone, or `none`")
+      ->delimiter(',');
 }
 
 void readScene(Arguments& arguments) {
@@ -135,7 +149,9 @@ void fillDefaults(Plan& plan) {
 void onlyStep(const Arguments& arguments) {
   const Plan& plan = arguments.plan;
   if (plan.rungs.size() != 1) throw std::invalid_argument("--only-step wants one integrator");
-  step(plan.scene, {plan.rungs.front(), plan.substeps.front(), plan.tolerances.front()},
+  const Scene scene =
+      arguments.only_effects.empty() ? plan.scene : withEffects(plan.scene, arguments.only_effects);
+  step(scene, {plan.rungs.front(), plan.substeps.front(), plan.tolerances.front()},
        arguments.only_step);
 }
 
@@ -152,8 +168,10 @@ int run(Arguments& arguments) {
   readScene(arguments);
   fillDefaults(arguments.plan);
   if (arguments.only_step > 0) return onlyStep(arguments), 0;
-  if (arguments.counts_instructions)
+  if (arguments.counts_instructions) {
     arguments.plan.count_instructions_with = stepCommand(arguments);
+    arguments.plan.count_effects_with = effectStepCommand(stepCommand(arguments));
+  }
   const bool has_output = !arguments.output.empty();
   const std::string folder = has_output ? std::filesystem::absolute(arguments.output).string() : "";
   if (has_output) prepareFolder(folder);  // before the flights: they may take minutes

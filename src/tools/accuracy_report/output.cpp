@@ -251,6 +251,10 @@ void print(const Report& report, std::ostream& out) {
   for (const Row& row : report.rows) rows.push_back(cellsOf(report, row));
   printTable(rows, out);
   out << '\n';
+  if (report.effects) {
+    print(*report.effects, out);
+    out << '\n';
+  }
   if (report.says_own_method) out << wrapped(ownMethod(report));
   for (const std::string& sentence : digest(report)) out << wrapped(sentence);
 }
@@ -269,6 +273,10 @@ void writeCsv(const Report& report, const std::string& folder) {
   writeCase(report, folder);
   writeMethods(report, folder);
   writeFlights(report, folder);
+  if (!report.effects) return;
+  std::ofstream file = open(folder, "effects.csv");
+  writeCsv(*report.effects, file);
+  close(file, folder);
 }
 
 }  // namespace rigid_body_sim::report

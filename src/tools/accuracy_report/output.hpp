@@ -17,6 +17,7 @@ void prepareFolder(const std::string& folder);
 /// Writes what scripts/plot_accuracy reads; makes the folder if it is not there.
 ///   case.csv     key, value: the scene, the reference, the body that is drawn
 ///   methods.csv  a line a row
+///   effects.csv  a line an effect, if there are any
 ///   flights.csv  a line a sample, of each rung with its largest steps, and of the reference
 /// Times are in s, errors in rad and m, energy and angular momentum relative, costs in ns of a body
 /// and tick.

@@ -198,6 +198,12 @@ Report make(const Plan& plan, const Progress& progress) {
   showWorst(report, progress);
   timeRows(report, plan, progress);
   markFront(report);
+  if (!report.scene.effects.empty()) {
+    progress("timing the effects", 1);
+    report.effects =
+        effectCosts(report.scene, report.scene.accuracy ? Method() : methodOf(report.scene),
+                    plan.repeats, plan.count_effects_with);
+  }
   return report;
 }
 

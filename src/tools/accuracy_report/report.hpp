@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/accuracy_report/cost.hpp"
+#include "tools/accuracy_report/effect_costs.hpp"
 #include "tools/accuracy_report/errors.hpp"
 
 namespace rigid_body_sim::report {
@@ -15,13 +16,14 @@ struct Plan {
   std::string name;  ///< of the case or scene
   Scene scene;
   double over_s = 60;
-  std::vector<int> substeps;            ///< ascending
-  std::vector<double> tolerances;       ///< descending; for methods that adapt their step
-  std::vector<std::string> rungs;       ///< names of integrators; empty: all
-  bool says_own_method = false;         ///< the scene is a file: say what it flies by itself
-  int repeats = 7;                      ///< timed runs of each method
-  double longest_s = 10;                ///< of wall time that one flight may take
-  StepCommand count_instructions_with;  ///< empty: instructions are not counted
+  std::vector<int> substeps;             ///< ascending
+  std::vector<double> tolerances;        ///< descending; for methods that adapt their step
+  std::vector<std::string> rungs;        ///< names of integrators; empty: all
+  bool says_own_method = false;          ///< the scene is a file: say what it flies by itself
+  int repeats = 7;                       ///< timed runs of each method
+  double longest_s = 10;                 ///< of wall time that one flight may take
+  StepCommand count_instructions_with;   ///< empty: instructions are not counted
+  EffectStepCommand count_effects_with;  ///< the same of single effects
 };
 
 enum class Outcome { kFlown, kRefused, kInfinite, kSkipped };
@@ -50,6 +52,7 @@ struct Report {
   bool rotates = true;     ///< errors are judged in rad; else, as all bodies are points, in m
   Eigen::Index shown = 0;  ///< the body that is drawn: see worstBody
   std::vector<Row> rows;
+  std::optional<EffectCosts> effects;  ///< if the scene has any
 };
 
 /// Told of what is being done, and how much of it is.
