@@ -225,6 +225,37 @@ TEST_F(AccuracyProgram, CountsInstructionsWithValgrind) {
   EXPECT_LT(counts[1], 3 * counts[0]);
 }
 
+TEST_F(AccuracyProgram, CountsWhatEachEffectCosts) {
+  if (!fs::exists("/usr/bin/valgrind")) GTEST_SKIP() << "no valgrind";
+  const std::string path = scene(
+      "effects: {gravity: {acceleration: [0, 0, -9.8]}, damping: {linear: 0.1}}\n"
+      "bodies:\n"
+      "  a: {box: {size: [0.1, 0.2, 0.3], density: 2000}}\n"
+      "  b: {box: {size: [0.1, 0.2, 0.3], density: 2000}, damping: false}\n");
+  const Ended ended = run({kReport, path, "--over=1", "--substeps=1", "--integrators=exact",
+                           "--repeats=1", "--instructions", "--no-plots", "--output=" + folder_});
+  EXPECT_EQ(ended.code, 0) << ended.said;
+  EXPECT_TRUE(contains(ended.said, {"What the effects cost with exact", "+ gravity alone",
+                                    "+ damping alone", "+ all together"}));
+  std::map<std::string, std::vector<double>> lines;  // bodies, time, instructions
+  std::ifstream file(folder_ + "/effects.csv");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    std::string name, cell;
+    std::getline(cells, name, ',');
+    while (name != "effect" && std::getline(cells, cell, ','))
+      lines[name].push_back(std::stod(cell));
+  }
+  ASSERT_EQ(lines.size(), 4u);
+  for (const auto& [name, numbers] : lines) ASSERT_EQ(numbers.size(), 3u) << name;
+  EXPECT_EQ(lines["gravity"][0], 2);
+  EXPECT_EQ(lines["damping"][0], 1);
+  EXPECT_GT(lines["gravity"][2], 10);
+  EXPECT_GT(lines["damping"][2], 10);
+  // Together they share what an evaluation costs by itself.
+  EXPECT_LT(lines["together"][2], 1.05 * (lines["gravity"][2] + lines["damping"][2]));
+}
+
 TEST_F(AccuracyProgram, PlotsOfNothingAreRefused) {
   EXPECT_NE(run({kPlot, folder_}).code, 0);
   EXPECT_NE(run({kPlot}).code, 0);

@@ -62,12 +62,13 @@ StepCommand stepCommand(const Arguments& arguments) {
   return [scene, name](const Method& method, Tick ticks) {
     std::ostringstream tolerance;
     tolerance << "--tolerances=" << method.tolerance;
+    // The scene first: an option that takes a list would swallow it.
     return std::vector<std::string>{ownPath(),
+                                    scene.empty() ? "--case=" + name : scene,
                                     "--only-step=" + std::to_string(ticks),
                                     "--integrators=" + method.integrator,
                                     "--substeps=" + std::to_string(method.substeps),
-                                    tolerance.str(),
-                                    scene.empty() ? "--case=" + name : scene};
+                                    tolerance.str()};
   };
 }
 
@@ -76,7 +77,7 @@ EffectStepCommand effectStepCommand(const StepCommand& command) {
     std::string names;
     for (const std::string& effect : effects) names += (names.empty() ? "" : ",") + effect;
     std::vector<std::string> words = command(method, ticks);
-    words.insert(words.end() - 1, "--only-effects=" + (names.empty() ? "none" : names));
+    words.push_back("--only-effects=" + (names.empty() ? "none" : names));
     return words;
   };
 }
