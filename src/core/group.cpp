@@ -116,31 +116,30 @@ std::string objection(const Method& method, const EffectList& effects) {
   return {};
 }
 
-std::string objection(const Method& method, const EffectList& effects, const Instant& now,
-                      double tick_s) {
+std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects,
+                                 const Instant& now, double tick_s) {
   const IntegratorRow& row = integratorNamed(method.integrator);
   for (const auto& effect : effects) {
-    const bool is_flow = row.has_drifts && effect->flowOrder() > 0;
-    if (is_flow) continue;
+    if (row.has_drifts && effect->flowOrder() > 0) continue;  // a flow bears any step
     const Stiffness stiff = effect->stiffness(now);
     const double longest = std::min(row.max_swing / stiff.oscillation, row.max_decay / stiff.decay);
     if (!(tick_s > longest * method.substeps)) continue;
     std::ostringstream why;
-    why << "integrator '" << toText(method) << "' cannot hold '" << effect->name() << "' on body "
-        << stiff.body << " in steps of " << tick_s << " s: it ";
-    if (stiff.oscillation > 0) why << "swings at " << stiff.oscillation << " rad/s";
+    why << "'" << effect->name() << "' makes it ";
+    if (stiff.oscillation > 0) why << "swing at " << stiff.oscillation << " rad/s";
     if (stiff.oscillation > 0 && stiff.decay > 0) why << " and ";
-    if (stiff.decay > 0) why << "slows down at " << stiff.decay << " 1/s";
+    if (stiff.decay > 0) why << "slow down at " << stiff.decay << " 1/s";
     if (longest == 0) {
-      why << ", which grows at any step; take semi_implicit, exact or rk4";
+      why << ", which grows in '" << row.name << "' at any step; take semi_implicit, exact or rk4";
     } else {
-      why << "; the largest stable step is " << longest * method.substeps << " s, or take "
-          << std::ceil(tick_s / longest) << " substeps";
-      if (!row.has_drifts && effect->flowOrder() > 0) why << ", or exact, which bears any";
+      why << "; the largest step_s that is stable with '" << toText(method) << "' is "
+          << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest)
+          << " substeps";
+      if (effect->flowOrder() > 0) why << ", or exact, which bears any step";
     }
-    return why.str();
+    return TooStiff{stiff.body, why.str()};
   }
-  return {};
+  return std::nullopt;
 }
 
 std::string objection(const Method& method, double rate, double tick_s) {
@@ -175,12 +174,15 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
     std::string why = objection(part.method, effects);
     if (!why.empty()) throw std::invalid_argument(why);
     const Bodies own = part.bodies.empty() ? bodies : rowsOf(bodies, part.bodies);
-    why = objection(part.method, effects, Instant(own, 0), scene.step_s());
-    if (!why.empty()) throw std::invalid_argument(why);
+    const auto nameOf = [&](Eigen::Index own_body) {
+      return "body '" + scene.bodies[part.bodies.empty() ? own_body : part.bodies[own_body]].name +
+             "': ";
+    };
+    if (const auto stiff = tooStiff(part.method, effects, Instant(own, 0), scene.step_s()))
+      throw std::invalid_argument(nameOf(stiff->body) + stiff->why);
     const FastestBody fastest = fastestOf(own);
     why = objection(part.method, fastest.rate, scene.step_s());
-    const Eigen::Index body = part.bodies.empty() ? fastest.body : part.bodies[fastest.body];
-    if (!why.empty()) throw std::invalid_argument("body '" + scene.bodies[body].name + "': " + why);
+    if (!why.empty()) throw std::invalid_argument(nameOf(fastest.body) + why);
     cautions.push_back(caution(part.method, effects));
     if (cautions.back().empty()) cautions.pop_back();
   }

@@ -36,10 +36,16 @@ int orderUnder(const IntegratorRow& row, const Effect& effect);
 /// Why the method must not step bodies under these effects; empty if it may.
 std::string objection(const Method& method, const EffectList& effects);
 
-/// Why ticks of `tick_s` [s] are too long for the method under these effects, which are judged at
-/// `now`; names the effect and the longest stable tick. Empty if they are not.
-std::string objection(const Method& method, const EffectList& effects, const Instant& now,
-                      double tick_s);
+/// A body for which an effect is too stiff.
+struct TooStiff {
+  Eigen::Index body;
+  std::string why;  ///< names the effect and the longest stable step
+};
+
+/// Whether ticks of `tick_s` [s] are too long for the method to be stable under these effects, which
+/// are judged at `now`.
+std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects,
+                                 const Instant& now, double tick_s);
 
 /// Why the method must not step bodies that turn at `rate` [rad/s], in ticks of `tick_s` [s].
 std::string objection(const Method& method, double rate, double tick_s);
