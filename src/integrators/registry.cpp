@@ -37,7 +37,7 @@ const std::vector<IntegratorRow>& integrators() {
        "classical Runge-Kutta on momentum in body axes, Runge-Kutta-Munthe-Kaas on attitude; any "
        "smooth wrench",
        makeRk4},
-      {"rk8", 8, 8, false, false, true, false, false, 2, 5, 6, 12, 6.3, 18, false,
+      {"rk8", 8, 8, false, false, true, false, false, 2, 5.95, 6.38, 12, 6.3, 18, false,
        "Dormand and Prince's eighth order on momentum in body axes and quaternion; any smooth "
        "wrench",
        makeRk8},
@@ -45,9 +45,9 @@ const std::vector<IntegratorRow>& integrators() {
        "kick - exact free rotation (Jacobi's elliptic functions) - kick; right to rounding at any "
        "step without torque",
        makeExact},
-      {"exact4", 4, 0, true, true, true, true, true, kInf, 2, 0, 7, 1.2, 26, false,
+      {"exact4", 4, 0, true, true, true, true, true, kInf, 3.1, 0, 7, 1.2, 26, false,
        "six exact free rotations between seven kicks (Blanes and Moan); any spin", makeExact4},
-      {"exact6", 6, 0, true, true, true, true, true, kInf, 2, 0, 12, 1.2, 47, false,
+      {"exact6", 6, 0, true, true, true, true, true, kInf, 3.1, 0, 12, 1.2, 47, false,
        "eleven exact free rotations between twelve kicks (Blanes and Moan); any spin", makeExact6},
       {"adaptive", 0, 0, false, false, true, false, false, kInf, kInf, kInf, 0, 32, 32, false,
        "rk8 in as many steps as `tolerance` wants; the reference", makeAdaptive},
