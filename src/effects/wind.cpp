@@ -43,7 +43,8 @@ Gusts readGusts(const Parameters& block) {
 
 /// The band is cut at sinh(j c), evenly at low and geometrically at high frequencies; each of its
 /// parts has a wave, with the variance of that part. The wave's frequency is drawn from the middle
-/// quarter of its part, so that no two axes have one in common, and so no correlation.
+/// quarter of its part, of which each axis has a third of its own: no two of them have a frequency
+/// in common, and so no correlation.
 Gusts::Gusts(const GustParameters& parameters) {
   if (parameters.deviation == 0) return;
   std::mt19937_64 engine(static_cast<std::uint64_t>(parameters.seed));
@@ -53,7 +54,7 @@ Gusts::Gusts(const GustParameters& parameters) {
     const double variance =
         parameters.deviation * parameters.deviation * part / varianceBelow(kFastest);
     for (int axis = 0; axis < 3; ++axis) {
-      const double place = j + 0.375 + 0.25 * uniform(engine);
+      const double place = j + 0.375 + ((axis + j) % 3 + 0.5 * uniform(engine)) / 12;
       const double phase = 2 * kPi * uniform(engine);
       waves_.push_back({std::sinh(place * c) / parameters.time, phase, std::sqrt(2 * variance)});
     }
