@@ -156,6 +156,9 @@ double readRotationalDrag(const EffectBlock& block, const EffectBlock::Member& m
 }
 
 Members<Shape> readShapes(const EffectBlock& block) {
+  // Also where no body takes them: they may be wrong all the same.
+  block.scene.number("drag_area", notNegative("m^2"), 0);
+  block.scene.number("rotational_drag", notNegative("m^5"), 0);
   Members<Shape> members;
   for (const auto& member : block.members) {
     const Shape shape = {block.number(member, "drag_area", notNegative("m^2"), 0),
