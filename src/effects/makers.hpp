@@ -6,6 +6,7 @@
 namespace rigid_body_sim {
 
 EffectList makeDamping(EffectBlock& block);
+EffectList makeDrag(EffectBlock& block);
 EffectList makeGravity(EffectBlock& block);
 
 }  // namespace rigid_body_sim

@@ -8,6 +8,7 @@ const std::vector<EffectRow>& effectRegistry() {
   static const std::vector<EffectRow> rows = {
       {"gravity", BlockLayout::kMap, makeGravity},
       {"damping", BlockLayout::kMap, makeDamping},
+      {"drag", BlockLayout::kMap, makeDrag},
   };
   return rows;
 }
