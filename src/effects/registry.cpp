@@ -8,6 +8,9 @@ const std::vector<EffectRow>& effectRegistry() {
   static const std::vector<EffectRow> rows = {
       {"gravity", BlockLayout::kMap, makeGravity},
       {"damping", BlockLayout::kMap, makeDamping},
+      {"central_gravity", BlockLayout::kMap, makeCentralGravity},
+      {"magnetic_dipole", BlockLayout::kMap, makeMagneticDipole},
+      {"buoyancy", BlockLayout::kMap, makeBuoyancy},
   };
   return rows;
 }
