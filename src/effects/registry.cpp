@@ -9,6 +9,9 @@ const std::vector<EffectRow>& effectRegistry() {
       {"gravity", BlockLayout::kMap, makeGravity},
       {"damping", BlockLayout::kMap, makeDamping},
       {"drag", BlockLayout::kMap, makeDrag},
+      {"central_gravity", BlockLayout::kMap, makeCentralGravity},
+      {"magnetic_dipole", BlockLayout::kMap, makeMagneticDipole},
+      {"buoyancy", BlockLayout::kMap, makeBuoyancy},
   };
   return rows;
 }
