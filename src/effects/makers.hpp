@@ -5,11 +5,14 @@
 // The makers of all effects, for the registry; each has its own source file.
 namespace rigid_body_sim {
 
+EffectList makeAddedMass(EffectBlock& block);
 EffectList makeBuoyancy(EffectBlock& block);
 EffectList makeCentralGravity(EffectBlock& block);
 EffectList makeDamping(EffectBlock& block);
 EffectList makeDrag(EffectBlock& block);
 EffectList makeGravity(EffectBlock& block);
 EffectList makeMagneticDipole(EffectBlock& block);
+EffectList makeRotatingFrame(EffectBlock& block);
+EffectList makeSpring(EffectBlock& block);
 
 }  // namespace rigid_body_sim

@@ -6,12 +6,15 @@ namespace rigid_body_sim {
 
 const std::vector<EffectRow>& effectRegistry() {
   static const std::vector<EffectRow> rows = {
+      {"added_mass", BlockLayout::kMap, makeAddedMass},
       {"gravity", BlockLayout::kMap, makeGravity},
       {"damping", BlockLayout::kMap, makeDamping},
       {"drag", BlockLayout::kMap, makeDrag},
       {"central_gravity", BlockLayout::kMap, makeCentralGravity},
       {"magnetic_dipole", BlockLayout::kMap, makeMagneticDipole},
       {"buoyancy", BlockLayout::kMap, makeBuoyancy},
+      {"spring", BlockLayout::kList, makeSpring},
+      {"rotating_frame", BlockLayout::kMap, makeRotatingFrame},
   };
   return rows;
 }
