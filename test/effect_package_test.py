@@ -105,10 +105,10 @@ class Package(unittest.TestCase):
         SCRATCH.mkdir(parents=True)
         forget_devel_space()
         cls.prefix, cls.own = install_and_build()
-        cls.path = {"LD_LIBRARY_PATH": ":".join(
-            [str(cls.prefix / "lib"), str(cls.own / "lib"), os.environ["LD_LIBRARY_PATH"]])}
-        cls.path_without = {"LD_LIBRARY_PATH": ":".join(
-            [str(cls.prefix / "lib"), os.environ["LD_LIBRARY_PATH"]])}
+        usual = os.environ["LD_LIBRARY_PATH"]
+        usual = ":" + usual if usual else ""  # an empty entry would be the working folder
+        cls.path = {"LD_LIBRARY_PATH": f"{cls.prefix}/lib:{cls.own}/lib{usual}"}
+        cls.path_without = {"LD_LIBRARY_PATH": f"{cls.prefix}/lib{usual}"}
 
     def fly(self, scene=SCENE, **environment):
         return run(self.own / "lib/effect_package/fly", scene, 30, **(environment or self.path))

@@ -33,7 +33,7 @@ std::string rangeText(const Allowed& allowed) {
   return text.str();
 }
 
-/// Control characters, which would end a message or its line, as \\x0a.
+/// Control characters, which would end a message or its line, as \x0a.
 std::string printable(const std::string& text) {
   std::string shown;
   for (const char c : text) {
