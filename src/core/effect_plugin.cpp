@@ -35,7 +35,7 @@ class Untranslated {
 };
 
 /// Whether the linker found no such library, rather than one that it could not load, or one that
-/// lacks another. It tells only by its message, whose words glibc has kept since 1998.
+/// lacks another. Only its message tells; the words are glibc's, read in version 2.36.
 bool isMissing(const std::string& error, const std::string& library) {
   return error.rfind(library + ": cannot open shared object file: No such file", 0) == 0;
 }
