@@ -47,14 +47,14 @@ std::map<std::string, std::string> blocksOf(Sampler& sample) {
 Scene sceneOf(Sampler& sample, const std::vector<std::string>& allowed) {
   auto blocks = blocksOf(sample);
   std::string effects;
-  bool has_frame = false;
+  bool has_added_mass = false;
   for (const std::string& name : allowed) {
     if (sample.number() < 0) continue;
-    if (name == "rotating_frame") has_frame = true;
-    if (name == "added_mass" && has_frame) continue;  // they do not go together
+    if (name == "added_mass") has_added_mass = true;
+    if (name == "rotating_frame" && has_added_mass) continue;  // they do not go together
     effects += "  " + name + ": " + blocks.at(name) + "\n";
   }
-  if (effects.find("added_mass") != std::string::npos) {
+  if (has_added_mass) {
     const auto at = effects.find(", gravity_gradient: true");
     if (at != std::string::npos) effects.erase(at, 24);
   }

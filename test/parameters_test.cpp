@@ -47,6 +47,11 @@ TEST(Number, MayHaveToBePositiveOrNotNegativeOrFinite) {
             "m: 0 is not a finite number > 0 [kg]");
   EXPECT_EQ(said("m: -1", [](const Parameters& p) { p.number("m", notNegative("kg")); }),
             "m: -1 is not a finite number >= 0 [kg]");
+  EXPECT_EQ(said("m: 1",
+                 [](const Parameters& p) {
+                   p.number("m", {-kInf, 0, "kg"});
+                 }),
+            "m: 1 is not a finite number <= 0 [kg]");
   EXPECT_EQ(parametersOf("m: 0").number("m", notNegative("kg")), 0);
   EXPECT_EQ(said("m: .inf", [](const Parameters& p) { p.number("m", finite("kg")); }),
             "m: inf is not a finite number [kg]");

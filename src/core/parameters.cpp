@@ -25,10 +25,26 @@ std::string rangeText(const Allowed& allowed) {
     text << "a number from " << numberText(allowed.min) << " to " << numberText(allowed.max);
   else if (lower)
     text << "a finite number " << (allowed.above_min ? "> " : ">= ") << numberText(allowed.min);
+  else if (upper)
+    text << "a finite number <= " << numberText(allowed.max);
   else
     text << "a finite number";
   if (!allowed.unit.empty()) text << " [" << allowed.unit << "]";
   return text.str();
+}
+
+/// Control characters, which would end a message or its line, as \x0a.
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (const char c : text) {
+    const int code = static_cast<unsigned char>(c);
+    constexpr const char* kDigits = "0123456789abcdef";
+    if (code < 0x20 || code == 0x7f)
+      shown += {'\\', 'x', kDigits[code / 16], kDigits[code % 16]};
+    else
+      shown += c;
+  }
+  return shown;
 }
 
 /// YAML 1.1, which ROS uses, takes 1e-6, 1.0e6 and -.5 for strings: it wants a dot with a digit
@@ -125,7 +141,7 @@ std::string Parameters::pathOf(const std::string& key) const {
 }
 
 void Parameters::refuse(const std::string& key, const std::string& what) const {
-  throw std::invalid_argument(pathOf(key) + ": " + what);
+  throw std::invalid_argument(printable(pathOf(key)) + ": " + what);
 }
 
 const Value* Parameters::find(const std::string& key) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "core/effect_plugin.hpp"
@@ -44,18 +45,33 @@ void refuseUnknown(const EffectBlock& block) {
   for (const auto& member : block.members) member.block.refuseUnknown();
 }
 
+/// Refuses a key that would be the name of a plug-in, if there were one.
+[[noreturn]] void refuseWithoutPlugin(const Parameters& effects, const std::string& key) {
+  std::set<std::string> names = {"gyroscopic"};
+  for (const EffectRow& row : effectRegistry()) names.insert(row.name);
+  const std::string nearest = nearestWord(key, names);
+  effects.refuse(key, "unknown key; " +
+                          (nearest.empty() ? "" : "did you mean '" + nearest + "'? Otherwise: ") +
+                          "there is no built-in effect of this name, and no library " +
+                          effectPluginLibrary(key) +
+                          " on the dynamic linker's path (LD_LIBRARY_PATH)");
+}
+
 /// The built-in effects, and those of plug-ins that the scene names.
 std::vector<EffectRow> rowsFor(const Parameters& effects) {
   std::vector<EffectRow> rows = effectRegistry();
   for (const std::string& key : effects.keys()) {
     const auto is_it = [&](const EffectRow& row) { return row.name == key; };
     if (key == "gyroscopic" || std::any_of(rows.begin(), rows.end(), is_it)) continue;
+    if (effectPluginLibrary(key).empty()) continue;  // refused with all that are unknown
+    const EffectRow* row = nullptr;
     try {
-      // The registry's last row stays the last one.
-      if (const EffectRow* row = effectPlugin(key)) rows.insert(rows.end() - 1, *row);
+      row = effectPlugin(key);
     } catch (const std::invalid_argument& error) {
       effects.refuse(key, error.what());
     }
+    if (!row) refuseWithoutPlugin(effects, key);
+    rows.insert(rows.end() - 1, *row);  // the registry's last row stays the last one
   }
   return rows;
 }
