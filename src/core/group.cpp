@@ -140,14 +140,10 @@ std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects
     if (stiff.oscillation > 0) why << "swing at " << stiff.oscillation << " rad/s";
     if (stiff.oscillation > 0 && stiff.decay > 0) why << " and ";
     if (stiff.decay > 0) why << "slow down at " << stiff.decay << " 1/s";
-    if (longest == 0) {
-      why << ", which grows in '" << row.name << "' at any step; take semi_implicit, exact or rk4";
-    } else {
-      why << "; the largest step_s that is stable with '" << toText(method) << "' is "
-          << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest)
-          << " substeps";
-      if (effect->flowOrder() > 0) why << ", or exact, which bears any step";
-    }
+    why << "; the largest step_s that is stable with '" << toText(method) << "' is "
+        << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest)
+        << " substeps";
+    if (effect->flowOrder() > 0) why << ", or exact, which bears any step";
     return TooStiff{stiff.body, why.str()};
   }
   return std::nullopt;

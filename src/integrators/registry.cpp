@@ -11,7 +11,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 const std::vector<IntegratorRow>& integrators() {
   static const std::vector<IntegratorRow> rows = {
-      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0, 2, 1, 1.5, 1.6,
+      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0.05, 2, 1, 1.5, 1.6,
        true,
        "explicit Euler on (v, w), the founding text's first method; a tumbling body loses energy "
        "until it spins about one axis",
@@ -25,7 +25,7 @@ const std::vector<IntegratorRow>& integrators() {
        "semi-implicit Euler on (v, w), the gyroscopic term by one implicit Newton step, as game "
        "engines do; never infinite, but energy and angular momentum decay",
        makeSemiImplicitNewton},
-      {"explicit_euler", 1, 1, true, false, true, false, false, kInf, 0, 2, 1, 1.0, 1.1, true,
+      {"explicit_euler", 1, 1, true, false, true, false, false, kInf, 0.05, 2, 1, 1.0, 1.1, true,
        "explicit Euler on (P, L): moves with the old momenta; energy stays below |L|^2 / 2 I1",
        makeExplicitEuler},
       {"semi_implicit", 1, 1, true, false, true, false, false, kInf, 2, 2, 1, 1.0, 1.5, true,
