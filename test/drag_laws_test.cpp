@@ -58,9 +58,10 @@ TEST(DragLaws, InShearAndGustsOnATumblingBodyHaveTheOrderOfEachMethod) {
   for (const IntegratorRow& row : integrators()) {
     if (row.order == 0 || (row.has_drifts && row.order_under_drag == 0)) continue;
     const int order = row.has_drifts ? std::min(row.order, 2) : row.order;
-    const int steps = order == 8 ? 10 : order == 1 ? 1600 : 160;
+    const int steps = order == 8 ? 6 : order == 1 ? 1600 : 160;
     const double coarse = windyError(row.name, steps, exact);
     const double fine = windyError(row.name, 2 * steps, exact);
+    // Measured: within 0.02 up to order 4.
     EXPECT_NEAR(std::log2(coarse / fine), order, order == 8 ? 0.8 : 0.06) << row.name << fine;
     RecordProperty(row.name, std::to_string(std::log2(coarse / fine)));
   }

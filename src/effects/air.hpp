@@ -7,11 +7,12 @@
 #include "effects/wind.hpp"
 
 // The air that drag acts in: its density and wind. at() works out once an instant what depends on
-// time alone; density() and wind() are asked for each body.
+// time alone; density() and wind() are asked for each body. kCost as Effect::cost(), measured.
 namespace rigid_body_sim {
 
 /// Of the same density and wind everywhere.
 struct UniformAir {
+  static constexpr double kCost = 0.4;
   double density_everywhere;  ///< [kg/m^3]
   Vector3d wind_W;            ///< but for gusts [m/s]
   Gusts gusts;
@@ -33,6 +34,7 @@ struct SeaLevel {
 
 /// Whose density or wind depends on altitude.
 struct LayeredAir {
+  static constexpr double kCost = 0.9;
   std::optional<double> density_everywhere;  ///< [kg/m^3]; unset: that of the atmosphere
   StandardAtmosphere1976 atmosphere;
   Wind breeze;

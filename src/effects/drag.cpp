@@ -1,4 +1,5 @@
-#include <set>
+#include <algorithm>
+#include <optional>
 
 #include "effects/air.hpp"
 #include "effects/makers.hpp"
@@ -38,6 +39,7 @@ class Drag : public Effect {
   std::size_t bodyCount() const override { return members_.size(); }
   bool dependsOnVelocity() const override { return true; }
   int flowOrder() const override { return 2; }
+  double cost() const override { return Air::kCost; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     const auto air = air_->at(now.time_s());
