@@ -67,6 +67,12 @@ class Effect {
   virtual void beforeDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
   virtual void afterDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
 
+  /// Whether it is right only with w x I w in the equations of motion of all bodies.
+  virtual bool needsGyroscopicTerm() const { return false; }
+
+  /// Whether it can end and begin again; what the state's own meaning depends on cannot.
+  virtual bool isSwitchable() const { return true; }
+
   /// Zero if its wrenches cannot make any step unstable.
   virtual Stiffness stiffness(const Instant&) const { return {}; }
 

@@ -15,7 +15,10 @@ BodyFrame bodyFrame(const MassProperties& body_L, const AddedMass& added_L) {
   frame.has_added_mass = true;
   const Vector3d masses_L = Vector3d::Constant(body_L.mass) + added_L.linear_F;
   const Matrix3d R_LB = frame.q_LB.toRotationMatrix();
-  frame.mass_matrix_B = R_LB.transpose() * masses_L.asDiagonal() * R_LB;
+  if (masses_L == Vector3d::Constant(masses_L(0)))  // to the bit: P and v are parallel then
+    frame.mass_matrix_B = masses_L.asDiagonal();
+  else
+    frame.mass_matrix_B = R_LB.transpose() * masses_L.asDiagonal() * R_LB;
   return frame;
 }
 

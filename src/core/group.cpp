@@ -44,6 +44,17 @@ EffectList effectsOn(const MethodOfBodies& part, const Scene& scene) {
   return *effects;
 }
 
+/// Of effects that are wrong for bodies without the gyroscopic term.
+void requireGyroscopicTerm(const Scene& scene) {
+  for (const auto& effect : scene.effects) {
+    if (!effect->needsGyroscopicTerm()) continue;
+    const std::vector<Eigen::Index> off = ungyroscopicBodies(scene);
+    if (!off.empty())
+      throw std::invalid_argument("'" + effect->name() + "' needs the gyroscopic term, and body '" +
+                                  scene.bodies[off.front()].name + "' has none");
+  }
+}
+
 }  // namespace
 
 std::string toText(const Method& method) {
@@ -169,6 +180,7 @@ std::string caution(const Method& method, const EffectList& effects) {
 
 std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies) {
   requireEachBodyOnce(scene);
+  requireGyroscopicTerm(scene);
   std::vector<std::string> cautions;
   for (const MethodOfBodies& part : methodsOf(scene)) {
     const EffectList effects = effectsOn(part, scene);

@@ -51,7 +51,8 @@ std::vector<EffectRow> rowsFor(const Parameters& effects) {
     const auto is_it = [&](const EffectRow& row) { return row.name == key; };
     if (key == "gyroscopic" || std::any_of(rows.begin(), rows.end(), is_it)) continue;
     try {
-      if (const EffectRow* row = effectPlugin(key)) rows.push_back(*row);
+      // The registry's last row stays the last one.
+      if (const EffectRow* row = effectPlugin(key)) rows.insert(rows.end() - 1, *row);
     } catch (const std::invalid_argument& error) {
       effects.refuse(key, error.what());
     }

@@ -116,6 +116,8 @@ void Simulator::addBody(const SceneBody& body) {
   initial_.I_BBcm_B.row(i) = frames_.back().I_BBcm_B;
   if (frames_.back().has_added_mass)
     initial_.setInverseMass(i, frames_.back().mass_matrix_B.inverse());
+  else if (initial_.hasAddedMass())  // of an earlier body; that did not know this one's mass yet
+    initial_.setInverseMass(i, Matrix3d::Identity() / initial_.mass(i));
   const BodyState state = stateOfLink(frames_.back(), body.X_WL, body.v_WBcm,
                                       body.is_point_mass ? Vector3d::Zero() : body.w_WB_L);
   if (!isFinite(state))
@@ -296,6 +298,8 @@ void Simulator::switchEffect(const std::string& name, bool is_on) {
   for (const auto& effect : at_start_.effects) {
     const auto& now = scene_.effects;
     const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
+    if (effect->name() == name && !is_on && !effect->isSwitchable())
+      throw std::invalid_argument("'" + name + "' cannot end: the momenta of the bodies contain it");
     if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
   }
   requireSuitableMethods(changed, bodies_);

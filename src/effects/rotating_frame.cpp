@@ -1,0 +1,142 @@
+#include <algorithm>
+
+#include "effects/makers.hpp"
+#include "rigid_body_sim/members.hpp"
+#include "rigid_body_sim/rotation.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+struct Turned {
+  bool has_rotation;  // is no point mass
+};
+
+Matrix3d tensorInWorld(const Matrix3d& R_WB, const Vector3d& I_BBcm_B) {
+  return R_WB * I_BBcm_B.asDiagonal() * R_WB.transpose();
+}
+
+/// The world W turns with a constant angular velocity W_W (Omega) against inertial space, about its
+/// origin; states are relative to it: P = m v, L = I w. In W's axes the absolute momenta are
+/// P + m Omega x p and L + I Omega; they obey P_a' + Omega x P_a = f, L_a' + Omega x L_a = t. With
+/// I' = [w] I - I [w] that gives (Coriolis 1835; Goldstein, Classical Mechanics, 2002, section
+/// 4.10, for the force)
+///
+///   P' = f - 2 m Omega x v - m Omega x (Omega x p),
+///   L' = t + I (w x Omega) - w x I Omega - Omega x I w - Omega x I Omega.
+///
+/// The terms with velocities do no work; the others have the potential -m |Omega x p|^2/2
+/// - Omega.I Omega/2.
+///
+/// The flow goes to the absolute momenta in the inertial frame that coincides with W at that
+/// moment, and after the drift to the W that has turned since. So free flight is as exact as the
+/// drift, at any step.
+class RotatingFrame : public Effect {
+ public:
+  RotatingFrame(const Vector3d& w_W, Members<Turned> members)
+      : w_W_(w_W), members_(std::move(members)) {}
+
+  std::string name() const override { return "rotating_frame"; }
+  std::size_t bodyCount() const override { return members_.size(); }
+  bool dependsOnVelocity() const override { return true; }
+  bool isConservative() const override { return true; }
+  bool needsGyroscopicTerm() const override { return true; }
+  int flowOrder() const override { return kExact; }
+  bool hasReversibleFlow() const override { return true; }
+
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+    const Bodies& bodies = now.bodies();
+    for (const auto& [i, turned] : members_) {
+      const Vector3d p = bodies.p_WBcm.row(i), v = now.v_WBcm().row(i);
+      wrenches.f_W.row(i) -= bodies.mass(i) * w_W_.cross(2 * v + w_W_.cross(p));
+      if (!turned.has_rotation) continue;
+      const Matrix3d I_W = tensorInWorld(now.R_WB(i), bodies.moments(i));
+      const Vector3d w = now.w_WB().row(i), L = bodies.L_WBcm_W.row(i), I_Omega = I_W * w_W_;
+      wrenches.t_Bcm_W.row(i) += I_W * w.cross(w_W_) - w.cross(I_Omega) - w_W_.cross(L + I_Omega);
+    }
+  }
+
+  double potentialEnergy(const Instant& now) const override {
+    const Bodies& bodies = now.bodies();
+    double sum = 0;
+    for (const auto& [i, turned] : members_) {
+      const Vector3d p = bodies.p_WBcm.row(i);
+      sum -= 0.5 * bodies.mass(i) * w_W_.cross(p).squaredNorm();
+      if (!turned.has_rotation) continue;
+      const Vector3d w_B = now.R_WB(i).transpose() * w_W_;
+      sum -= 0.5 * w_B.cwiseProduct(w_B).dot(bodies.moments(i));
+    }
+    return sum;
+  }
+
+  void beforeDrift(Bodies& bodies, double, double) const override { addFrame(bodies, 1); }
+
+  void afterDrift(Bodies& bodies, double, double h) const override {
+    const Quaterniond back = rotationExp(-h * w_W_);
+    const Matrix3d R = back.toRotationMatrix();
+    for (const auto& [i, turned] : members_) {
+      BodyState body = bodies.state(i);
+      body.p_WBcm = R * body.p_WBcm;
+      body.P_WB = R * body.P_WB;
+      if (turned.has_rotation) {
+        body.q_WB = renormalized(back * body.q_WB);
+        body.L_WBcm_W = R * body.L_WBcm_W;
+      }
+      bodies.setState(i, body);
+    }
+    addFrame(bodies, -1);
+  }
+
+  Stiffness stiffness(const Instant&) const override { return {2 * w_W_.norm(), 0, 0}; }
+
+  std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {
+    return std::make_shared<RotatingFrame>(w_W_, members_.restrictedTo(some));
+  }
+
+ private:
+  static constexpr int kExact = 100;  // above any method's order
+
+  /// From momenta relative to W to absolute ones, or back.
+  void addFrame(Bodies& bodies, double sign) const {
+    const Vector3d w_W = sign * w_W_;
+    for (const auto& [i, turned] : members_) {
+      const Vector3d p = bodies.p_WBcm.row(i);
+      bodies.P_WB.row(i) += bodies.mass(i) * w_W.cross(p);
+      if (!turned.has_rotation) continue;
+      const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(i)));
+      const Vector3d w_B = q_WB.conjugate() * w_W;
+      bodies.L_WBcm_W.row(i) += q_WB * bodies.moments(i).cwiseProduct(w_B);
+    }
+  }
+
+  Vector3d w_W_;
+  Members<Turned> members_;
+};
+
+/// The world turns for all bodies or for none.
+void requireAllBodies(const EffectBlock& block) {
+  for (std::size_t i = 0; i < block.bodies.size(); ++i) {
+    const SceneBody& body = block.bodies[i];
+    const auto is_it = [&](const auto& member) {
+      return member.body == static_cast<Eigen::Index>(i);
+    };
+    const Parameters own({Value::Map()}, "bodies." + body.name);
+    if (std::none_of(block.members.begin(), block.members.end(), is_it))
+      own.refuse("rotating_frame", "false; the world turns for all bodies or for none");
+    if (!body.added_mass_L.isZero())
+      own.refuse("added_mass", "with `rotating_frame`; the fluid would not turn with the world");
+  }
+}
+
+}  // namespace
+
+EffectList makeRotatingFrame(EffectBlock& block) {
+  const Vector3d w_W = block.scene.vector3("angular_velocity", finite("rad/s"));
+  if (w_W.isZero(0)) return {};
+  requireAllBodies(block);
+  Members<Turned> members;
+  for (const auto& member : block.members)
+    members.add(member.body, {!block.bodies[member.body].is_point_mass});
+  return {std::make_shared<RotatingFrame>(w_W, std::move(members))};
+}
+
+}  // namespace rigid_body_sim
