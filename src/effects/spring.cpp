@@ -60,7 +60,7 @@ Line lineOf(const Spring& spring, const Bodies& bodies, Turned turned) {
 
 Line lineOf(const Spring& spring, const Instant& now) {
   return lineOf(spring, now.bodies(),
-                [&](Eigen::Index i, const Vector3d& r_B) { return now.R_WB(i) * r_B; });
+                [&](Eigen::Index i, const Vector3d& r_B) -> Vector3d { return now.R_WB(i) * r_B; });
 }
 
 /// f_W on the first end, -f_W on the second.
