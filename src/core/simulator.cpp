@@ -299,7 +299,7 @@ void Simulator::switchEffect(const std::string& name, bool is_on) {
     const auto& now = scene_.effects;
     const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
     if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name + "' cannot end: the momenta of the bodies contain it");
+      throw std::invalid_argument("'" + name + "' cannot end: the bodies' momenta contain it");
     if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
   }
   requireSuitableMethods(changed, bodies_);
