@@ -72,7 +72,7 @@ TEST(RotatingFrame, AttitudeOfAFreeTriaxialBodyIsThatOfTheInertialFlightTurnedBa
   const double error =
       angleBetween(flown(scene, "exact", 100, 5000).state(0).q_WB, freeFlight(scene, 100).q_WB);
   RecordProperty("error", std::to_string(error * 1e15) + "e-15");
-  EXPECT_LE(error, 1e-12);  // 5000 steps of a few kEps, and a phase that grows with them
+  EXPECT_LE(error, 4e-12);  // measured: 7e-13, from roundings of L that turn it for 100 s
 }
 
 TEST(RotatingFrame, ABodyAtRestInInertialSpaceMovesInACircle) {
