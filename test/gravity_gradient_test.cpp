@@ -82,13 +82,14 @@ Simulator satellite(double n, const Vector3d& I_L, const Quaterniond& tilt) {
 }
 
 /// Period [s] of what `angle` says of the simulated satellite, from where it crosses zero upwards;
-/// the mean of `count`.
+/// the mean of `count`. Infinite if it does not in 10 hours.
 template <class F>
 double measuredPeriod(Simulator simulator, const F& angle, int count) {
   std::vector<double> crossings;
   double before = angle(simulator);
   while (static_cast<int>(crossings.size()) <= count) {
     const double start_s = simulator.time_s();
+    if (start_s > 36000) return kInf;
     simulator.step();
     const double after = angle(simulator);
     if (before < 0 && after >= 0) crossings.push_back(start_s - before / (after - before));
