@@ -48,9 +48,23 @@ void copyState(const Bodies& from, Bodies& to) {
   to.L_WBcm_W = from.L_WBcm_W;
 }
 
+/// A number times zero is zero, but for what is not finite. Four sums, as one would wait for
+/// itself.
+template <class Columns>
+bool allFinite(const Columns& columns) {
+  const double* x = columns.data();
+  const Eigen::Index count = columns.size();
+  double sums[4] = {0, 0, 0, 0};
+  Eigen::Index i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (int k = 0; k < 4; ++k) sums[k] += 0.0 * x[i + k];
+  for (; i < count; ++i) sums[0] += 0.0 * x[i];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]) == 0;
+}
+
 bool allFinite(const Bodies& bodies) {
-  return bodies.p_WBcm.allFinite() && bodies.q_WB.allFinite() && bodies.P_WB.allFinite() &&
-         bodies.L_WBcm_W.allFinite();
+  return allFinite(bodies.p_WBcm) && allFinite(bodies.q_WB) && allFinite(bodies.P_WB) &&
+         allFinite(bodies.L_WBcm_W);
 }
 
 /// Every frame of every body becomes a frame of one tree.
@@ -246,8 +260,8 @@ EnergyBalance Simulator::energy() const {
   return energy;
 }
 
-std::vector<EffectWrenches> Simulator::effectWrenches() const {
-  std::vector<EffectWrenches> all;
+std::vector<WrenchesOfEffect> Simulator::effectWrenches() const {
+  std::vector<WrenchesOfEffect> all;
   const Instant now(bodies_, time_s());
   const auto add = [&](const Effect& effect) {
     all.push_back({effect.name(), {}});
@@ -257,6 +271,15 @@ std::vector<EffectWrenches> Simulator::effectWrenches() const {
   for (const auto& effect : scene_.effects) add(*effect);
   if (applied_->bodyCount() > 0) add(*applied_);
   return all;
+}
+
+Wrench Simulator::wrenchOn(Eigen::Index body) const {
+  Wrench sum;
+  for (const WrenchesOfEffect& one : effectWrenches()) {
+    sum.f_F += one.wrenches.f_W.row(body);
+    sum.t_Q_F += one.wrenches.t_Bcm_W.row(body);
+  }
+  return sum;
 }
 
 const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->state() : nullptr; }
@@ -299,7 +322,7 @@ void Simulator::switchEffect(const std::string& name, bool is_on) {
     const auto& now = scene_.effects;
     const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
     if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name + "' cannot end: the bodies' momenta contain it");
+      throw std::invalid_argument("'" + name + "' cannot end: the momenta of the bodies contain it");
     if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
   }
   requireSuitableMethods(changed, bodies_);
