@@ -13,8 +13,7 @@ struct Row {
 
 // U.S. Standard Atmosphere, 1976 (NOAA-S/T 76-1562), Part 4, Table I, by geometric altitude, pages
 // 51 to 67. At 85 km the density is one more in the last digit than what pressure and temperature
-// beside it give. R = 287.053 J/(kg K) in place of R*/M0 = 287.0529 makes 4e-6, half a tenth of the
-// last digit.
+// beside it give.
 const std::vector<Row> kLayered = {
     {-5, 1.9311, 1e-4},       {0, 1.2250, 1e-4},     {1, 1.1117, 1e-4},     {2, 1.0066, 1e-4},
     {5, 7.3643e-1, 1e-5},     {10, 4.1351e-1, 1e-5}, {11, 3.6480e-1, 1e-5}, {15, 1.9476e-1, 1e-5},
@@ -62,7 +61,7 @@ TEST(StandardAtmosphere1976, HasTheTroposphereThatTheCheckCasesOfNasaState) {
     const double T = 288.15 - 0.0065 * H;
     const double p = 101325 * std::pow(T / 288.15, 5.25588);
     // The exponent's last digit: 5e-6 of ln(T / 288.15), which is at most 0.24.
-    EXPECT_NEAR(air.density(h) / (p / (287.053 * T)), 1, 1.5e-6) << h;
+    EXPECT_NEAR(air.density(h) / (p / (8314.32 / 28.9644 * T)), 1, 1.5e-6) << h;
   }
 }
 

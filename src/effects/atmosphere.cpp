@@ -6,15 +6,15 @@
 namespace rigid_body_sim {
 namespace {
 
-// U.S. Standard Atmosphere, 1976, Part 1, table 2; R is R*/M0 = 8314.32/28.9644.
-constexpr double kT0 = 288.15;       // [K]
-constexpr double kP0 = 101325;       // [Pa]
-constexpr double kR = 287.053;       // [J/(kg K)]
-constexpr double kG0 = 9.80665;      // [m/s^2]
-constexpr double kRadius = 6356766;  // r0 [m]
-constexpr double kTop = 86e3;        // of the layers, geometric [m]
-constexpr double kBottom = -5e3;     // of the tables [m]
-constexpr double kFlattening = 5e3;  // how far below that the density still grows [m]
+// U.S. Standard Atmosphere, 1976, Part 1, table 2; R is R*/M0.
+constexpr double kT0 = 288.15;            // [K]
+constexpr double kP0 = 101325;            // [Pa]
+constexpr double kR = 8314.32 / 28.9644;  // [J/(kg K)]
+constexpr double kG0 = 9.80665;           // [m/s^2]
+constexpr double kRadius = 6356766;       // r0 [m]
+constexpr double kTop = 86e3;             // of the layers, geometric [m]
+constexpr double kBottom = -5e3;          // of the tables [m]
+constexpr double kFlattening = 5e3;       // how far below that the density still grows [m]
 
 // Table 4: bases of the layers, geopotential [m], and gradients of temperature [K/m].
 constexpr double kBases[] = {0, 11e3, 20e3, 32e3, 47e3, 51e3, 71e3};
