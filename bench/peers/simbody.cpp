@@ -29,6 +29,7 @@ class SimbodySystem {
       bodies_.emplace_back(matter_.Ground(), body);
     }
     start_ = system_.realizeTopology();
+    system_.realizeModel(start_);
     for (std::size_t k = 0; k < bodies_.size(); ++k) setStart(k);
   }
 
@@ -82,6 +83,7 @@ class Integrated {
     method_ = makeMethod();
     method_->setFinalTime(SimTK::Infinity);
     method_->initialize(system_.start());
+    method_->stepTo(0);  // the first call only tells that it has begun
   }
 
   void step(int steps) {

@@ -2,11 +2,13 @@
 // own for each, as two builds of an engine (Bullet's) have the same symbols, and as an engine may
 // end its process.
 //
-//   list                    the rows of this engine, fields by tabs, then an empty line
-//   error ROW STEP TIME     attitude error [rad] after TIME [s] in steps of STEP [s]
-//   open ROW LOAD BODIES    answers with a handle
-//   time HANDLE NS          steps for NS [ns]; answers with the time of a step of one body [ns]
+//   list                      the rows of this engine, fields by tabs
+//   error ROW LOAD STEP TIME  attitude error [rad] after TIME [s] in steps of STEP [s]
+//   open ROW LOAD BODIES      answers with a handle
+//   time HANDLE NS            steps for NS [ns]; answers with the time of a step of one body [ns]
 //   close HANDLE
+//
+// A line with a dot ends every answer.
 #include <unistd.h>
 
 #include <cmath>
@@ -55,9 +57,10 @@ class Worker {
 
   double error(std::istream& words) const {
     std::size_t row = 0;
+    std::string load;
     double step_s = 0, time_s = 0;
-    words >> row >> step_s >> time_s;
-    const Scene scene = makeScene(loadNamed("gyroscopic"), 1, step_s);
+    words >> row >> load >> step_s >> time_s;
+    const Scene scene = makeScene(loadNamed(load), 1, step_s);
     const Peer peer = rows_.at(row).make(scene);
     peer.reset();
     peer.step(static_cast<int>(std::lround(time_s / step_s)));
@@ -96,7 +99,7 @@ int main() try {
   dup2(STDERR_FILENO, STDOUT_FILENO);
   rigid_body_sim::bench::Worker worker;
   for (std::string line; std::getline(std::cin, line);) {
-    std::fprintf(answers, "%s\n\n", worker.answer(line).c_str());
+    std::fprintf(answers, "%s\n.\n", worker.answer(line).c_str());
     std::fflush(answers);
   }
 } catch (const std::exception& error) {
