@@ -169,9 +169,9 @@ std::vector<PeerRow> peerRows() {
   PeerRow stock = {engine, "world", "`stepSimulation` as it is", [](const Scene& scene) {
                      return peerOf(std::make_shared<InWorld>(scene, Collisions::kOn));
                    }};
-  return {{engine, "per body", "each body's integration calls, without a world",
+  return {{engine, "per body", "the integration calls of each body, without a world",
            [](const Scene& scene) { return peerOf(std::make_shared<PerBody>(scene)); }},
-          {engine, "world, no collisions", "`stepSimulation` without its stages of collision",
+          {engine, "world, bare", "`stepSimulation` without its stages of collision",
            [](const Scene& scene) {
              return peerOf(std::make_shared<InWorld>(scene, Collisions::kOff));
            }},

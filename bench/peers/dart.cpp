@@ -103,7 +103,7 @@ PeerRow row(const std::string& name, const std::string& about, Way way) {
 }  // namespace
 
 std::vector<PeerRow> peerRows() {
-  return {row("per skeleton", "each skeleton's own calls, without a world", Way::kPerSkeleton),
+  return {row("per skeleton", "the calls of each skeleton, without a world", Way::kPerSkeleton),
           row("world", "`World::step`, nothing to collide with", Way::kWorld)};
 }
 

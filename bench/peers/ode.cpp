@@ -94,8 +94,8 @@ PeerRow row(const std::string& way, const std::string& about, const Options& opt
 std::vector<PeerRow> peerRows() {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
-  return {row("dWorldStep", "world without a collision space", {}),
-          row("dWorldStep, finite", "finite rotations", {Stepper::kWorldStep, true}),
+  return {row("dWorldStep", "the direct solver, without a space of collisions", {}),
+          row("dWorldStep, finite", "the same with finite rotations", {Stepper::kWorldStep, true}),
           row("dWorldQuickStep", "the iterative solver", {Stepper::kQuickStep, false})};
 }
 

@@ -157,8 +157,9 @@ PeerRow row(const std::string& way, const std::string& about) {
 std::vector<PeerRow> peerRows() {
   return {row<Realized>("realize, Euler", "`realize` and semi-explicit Euler by hand"),
           row<Integrated<SimTK::SemiExplicitEulerIntegrator>>("semi-explicit Euler",
-                                                              "its integrator of this name"),
-          row<Integrated<SimTK::RungeKuttaMersonIntegrator>>("RK-Merson", "at a fixed step")};
+                                                              "the integrator of this name"),
+          row<Integrated<SimTK::RungeKuttaMersonIntegrator>>("RK-Merson",
+                                                             "Runge-Kutta-Merson at a fixed step")};
 }
 
 }  // namespace rigid_body_sim::bench
