@@ -14,6 +14,7 @@ OURS = "rigid_body_sim"
 COLOURS = {"rigid_body_sim": "#000000", "Bullet": "#CC3311", "ODE": "#0077BB", "MuJoCo": "#117733",
            "DART": "#AA4499", "Simbody": "#B8720B"}
 LEAST = 1e-16  # no error of exactly nothing on a logarithmic axis
+LOST = 0.3  # rad
 HALO = [patheffects.withStroke(linewidth=3, foreground="white")]
 
 
@@ -89,9 +90,9 @@ def label_others(axes, ways):
 
 def draw(results, path):
     ways = points(results)
-    lost = [one for one in ways if one[2] > 0.3]
-    figure, axes = plt.subplots(figsize=(11, 8.6), dpi=110)
-    figure.subplots_adjust(left=0.085, right=0.97, bottom=0.075, top=0.72)
+    lost = [one for one in ways if one[2] > LOST]
+    figure, axes = plt.subplots(figsize=(11, 8.9), dpi=110)
+    figure.subplots_adjust(left=0.085, right=0.97, bottom=0.075, top=0.705)
     draw_ways(axes, results, ways)
     times = [time for _, time, _ in ways]
     axes.set(xscale="log", yscale="log", xlim=(min(times) / 1.7, max(times) * 2.2),
@@ -103,15 +104,18 @@ def draw(results, path):
     axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda x, _: f"{x:,.0f}"))
     axes.grid(True, which="major", color="#dddddd", lw=0.7)
     axes.set_axisbelow(True)
+    axes.axhspan(LOST, 8, color="#bbbbbb", alpha=0.3, lw=0)
+    axes.text(0.995, LOST * 1.25, "attitude lost", transform=axes.get_yaxis_transform(), ha="right",
+              fontsize=9.5, color="#444444")
     label_lost(axes, lost, 14)
-    label_others(axes, [one for one in ways if one[2] <= 0.3])
+    label_others(axes, [one for one in ways if one[2] <= LOST])
     figure.text(0.012, 0.985, "Error against time: free rigid bodies in this package and in other "
                 "engines", va="top", fontsize=14, weight="bold")
     text = ("A tumbling body, I = (1, 2, 3) kg m², 5 rad/s, a step of 0.02 s. Down is more accurate, "
             "left is faster. Black diamonds: the integrators of rigid_body_sim. Coloured circles: "
             "other engines. Faint lines: the same with 2, 4 ... 64 times shorter steps, at 2, 4 ... "
             f"64 times the price. {results.machine['cpu']}, 256 bodies, one thread.")
-    figure.text(0.012, 0.952, textwrap.fill(text, 150), va="top", fontsize=9.5, color="#333333",
+    figure.text(0.012, 0.952, textwrap.fill(text, 165), va="top", fontsize=9.5, color="#333333",
                 linespacing=1.35)
     figure.savefig(path)
     plt.close(figure)

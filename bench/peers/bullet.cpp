@@ -132,11 +132,6 @@ class InWorld {
     if (collisions == Collisions::kOff) world_.getSimulationIslandManager()->setSplitIslands(false);
     for (const auto& body : bodies_.all()) world_.addRigidBody(body.get());
   }
-  ~InWorld() {
-    // In the order in which they are held last, as each is looked for from there.
-    for (auto body = bodies_.all().rbegin(); body != bodies_.all().rend(); ++body)
-      world_.removeRigidBody(body->get());
-  }
   InWorld(const InWorld&) = delete;
   InWorld& operator=(const InWorld&) = delete;
 
@@ -153,7 +148,7 @@ class InWorld {
   }
 
  private:
-  BulletBodies bodies_;
+  BulletBodies bodies_;  // outlive the world: removing one takes a search through all
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

@@ -95,8 +95,9 @@ PeerRow row(const std::string& name, const std::string& about, Way way) {
   PeerRow row = {"DART " DART_VERSION, name, about,
                  [way](const Scene& scene) { return peerOf(std::make_shared<Dart>(scene, way)); }};
   row.is_gyroscopic_optional = false;
-  row.most_bodies = 65536;
-  row.limit = "a million skeletons do not fit into the memory of an ordinary machine";
+  row.most_bodies = way == Way::kWorld ? 4096 : 65536;
+  row.limit = way == Way::kWorld ? "the time to fill a world grows with the square of the bodies"
+                                 : "a million skeletons take some 20 GB";
   return row;
 }
 

@@ -148,7 +148,7 @@ PeerRow row(const std::string& way, const std::string& about) {
                  [](const Scene& scene) { return peerOf(std::make_shared<Engine>(scene)); }};
   row.is_gyroscopic_optional = false;
   row.most_bodies = 65536;
-  row.limit = "a million bodies do not fit into the memory of an ordinary machine";
+  row.limit = "a million take some 10 GB";
   return row;
 }
 
