@@ -3,8 +3,8 @@
 
 usage: benchmark_report.py RESULTS README PICTURE
 
-RESULTS holds times.csv, errors.csv and limits.csv; machine.csv with what it was measured on; and, if
-Google Benchmark was there, rungs.json of rungs_benchmark.
+RESULTS holds times.csv, errors.csv and limits.csv; machine.csv with what it was measured on; and,
+if Google Benchmark was there, rungs.json of rungs_benchmark.
 Replaces what stands in README between the two lines
 
     <!-- benchmark: begin -->
@@ -179,42 +179,64 @@ def not_measured(results):
     return text + (f" Not installed: {left_out}." if left_out else "")
 
 
-def section(results, picture):
-    machine = results.machine
-    rungs = f"""
-What the loads cost our own integrators, {MIDDLE} bodies, by Google Benchmark (`build/benchmark/rungs_benchmark` has the
-other numbers of bodies):
-
-{rungs_table(results)}
-""" if results.rungs else ""
+def intro(results, picture):
     return f"""## Beside other engines
 
 ![Error against time of a step, every engine and every integrator]({picture})
 
 ```bash
-scripts/benchmark              # installs the engines, builds, measures, writes this section; some minutes
-scripts/benchmark --quick      # to try it out; less than a minute of measuring, and leaves this section alone
+scripts/benchmark              # installs the engines, builds, measures, writes this section; ten minutes
+scripts/benchmark --quick      # to try it out: a minute, and this section stays as it is
 ```
 
 {summary(results)}
+"""
 
-Nanoseconds a body and step, by the number of bodies, under gravity and with the gyroscopic term; the speed with
-{MIDDLE} bodies, that of the fastest other way being 1; and the attitude error after 10 s of a tumbling body,
-I = (1, 2, 3) kg m², ω = (0.1, 5, 0.1) rad/s, at a step of 0.02 s. In bold what is ours: integrators on bare `Bodies`, and
-`exact` in a `Simulator`, which also latches inputs and freezes what becomes infinite.
+
+def at_all_sizes(results):
+    return f"""Nanoseconds a body and step, by the number of bodies, under gravity and with the gyroscopic
+term; the speed with {MIDDLE} bodies, that of the fastest other way being 1; and the attitude error
+after 10 s of a tumbling body, I = (1, 2, 3) kg m², ω = (0.1, 5, 0.1) rad/s, at a step of 0.02 s. In
+bold what is ours: integrators on bare `Bodies`, and `exact` in a `Simulator`, which also latches
+inputs and freezes what becomes infinite.
 
 {main_table(results)}
+"""
 
-The same with other loads: gravity alone (the gyroscopic term left out), with that term, and with a wrench on every
-body in every step besides. A dash: the engine cannot leave the term out. *inputs*: every wrench by `Simulator::apply`, as
-messages bring them; the other rows of ours have them from an effect.
+
+def under_loads(results):
+    return f"""The same with other loads: gravity alone (the gyroscopic term left out), with that term,
+and with a wrench on every body in every step besides. A dash: the engine cannot leave the term out.
+*inputs*: every wrench by `Simulator::apply`, as messages bring them; the other rows of ours have
+them from an effect.
 
 {loads_table(results)}
-{rungs}
-{machine['cpu']}; {machine['compiler']}, {machine['flags']}; commit {machine['commit']}. One thread; times are the
-processor's, medians of rounds in which all take turns. Nothing touches, nothing sleeps. The engines are those of
-{machine['system']}. {ways_in_words(results)} {not_measured(results)} `bench/peers/` has a file for each.
 """
+
+
+def rungs_alone(results):
+    if not results.rungs:
+        return ""
+    return f"""What the loads cost our own integrators, {MIDDLE} bodies, by Google Benchmark
+(`build/benchmark/rungs_benchmark` has the other numbers of bodies):
+
+{rungs_table(results)}
+"""
+
+
+def small_print(results):
+    machine = results.machine
+    return f"""{machine['cpu']}; {machine['compiler']}, {machine['flags']}; commit {machine['commit']}.
+One thread; times are the processor's, medians of rounds in which all take turns. Nothing touches,
+nothing sleeps. The engines are those of {machine['system']}. {ways_in_words(results)}
+{not_measured(results)} `bench/peers/` has a file for each.
+"""
+
+
+def section(results, picture):
+    parts = [intro(results, picture), at_all_sizes(results), under_loads(results),
+             rungs_alone(results), small_print(results)]
+    return "\n".join(part for part in parts if part)
 
 
 def main(folder, readme, picture):
