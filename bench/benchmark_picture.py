@@ -50,6 +50,8 @@ def points(results):
 def draw_ways(axes, results, ways):
     for way, time, error in ways:
         finer = results.finer(way)
+        best = min(range(len(finer)), key=lambda k: finer[k][1])
+        finer = finer[:best + 1]  # from there on rounding grows
         axes.plot([time * cost for cost, _ in finer],
                   [max(one, LEAST) for _, one in finer], "-", color=colour(way), lw=0.8, alpha=0.35,
                   zorder=2)
@@ -105,7 +107,7 @@ def draw(results, path):
     axes.grid(True, which="major", color="#dddddd", lw=0.7)
     axes.set_axisbelow(True)
     axes.axhspan(LOST, 8, color="#bbbbbb", alpha=0.3, lw=0)
-    axes.text(0.995, LOST * 1.25, "attitude lost", transform=axes.get_yaxis_transform(), ha="right",
+    axes.text(0.005, LOST * 1.25, "attitude lost", transform=axes.get_yaxis_transform(), ha="left",
               fontsize=9.5, color="#444444")
     label_lost(axes, lost, 14)
     label_others(axes, [one for one in ways if one[2] <= LOST])

@@ -136,14 +136,14 @@ def summary(results):
     best = min((way for way in results.ways if way[0] != OURS and results.time(way)),
                key=lambda way: results.error(way))
     exact = (OURS, "exact")
-    without = [error for (way, load, step), error in results.errors.items()
-               if load == "gravity" and step == STEP_S]
+    without = sorted({f"{error:.3g}" for (way, load, step), error in results.errors.items()
+                      if load == "gravity" and step == STEP_S})
     return (f"With {MIDDLE} bodies the fastest other way, {named(peer)}, takes {fastest:.0f} ns a "
             f"body and step, and is {results.error(peer):.2g} rad off after 10 s; `exact` takes "
             f"{results.time(exact):.0f} ns and is {results.error(exact):.1g} rad off. The most "
             f"accurate other one, {named(best)}, takes {results.time(best):,.0f} ns for "
-            f"{results.error(best):.1g} rad. Without the gyroscopic term every engine is "
-            f"{min(without):.2g} to {max(without):.2g} rad off.")
+            f"{results.error(best):.1g} rad. Without the gyroscopic term all are "
+            f"{' to '.join(dict.fromkeys([without[0], without[-1]]))} rad off.")
 
 
 def rungs_table(results):
@@ -185,7 +185,7 @@ def intro(results, picture):
 ![Error against time of a step, every engine and every integrator]({picture})
 
 ```bash
-scripts/benchmark              # installs the engines, builds, measures, writes this section; ten minutes
+scripts/benchmark              # installs the engines, builds, measures, writes this section; some ten minutes
 scripts/benchmark --quick      # to try it out: a minute, and this section stays as it is
 ```
 
