@@ -172,10 +172,12 @@ def not_measured(results):
     limits = {}
     for row in results.limits:
         if row["engine"] != OURS:
-            engine = row["engine"].split(" ")[0]
-            limits[engine] = f"{engine} beyond {int(row['most_bodies']):,} bodies, as {row['why']}"
+            limit = row["engine"].split(" ")[0], int(row["most_bodies"]), row["why"]
+            limits.setdefault(limit, []).append(f"*{row['way']}*")
+    texts = [f"{engine} ({', '.join(ways)}) beyond {most:,} bodies, as {why}"
+             for (engine, most, why), ways in limits.items()]
     left_out = results.machine.get("left_out", "")
-    text = "Not measured: " + "; ".join(limits.values()) + "." if limits else ""
+    text = "Not measured: " + "; ".join(texts) + "." if texts else ""
     return text + (f" Not installed: {left_out}." if left_out else "")
 
 

@@ -64,7 +64,7 @@ class Section(unittest.TestCase):
         text = report.section(results, "picture.png")
         for part in ("| **`exact`** | 41 | 3.0 | 3e-14 |", "| Engine 1.0, world | 123 | 1.0 | 2.5 |",
                      "| Engine 1.0, world | – | 123 | 123 |", "| **`exact`** | 39 | 41 | 41 |",
-                     "Engine beyond 4,096 bodies, as it is slow", "Not installed: other.",
+                     "Engine (*world*) beyond 4,096 bodies, as it is slow", "Not installed: other.",
                      "A Processor, of 1 core; GNU 12.2, -O3; commit abc1234", "(picture.png)"):
             self.assertIn(part, text)
 
