@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by demo and test: where things are, and the build. Nothing is written outside the checkout.
+# Sourced by benchmark, demo and test: where things are, and the build. Nothing is written outside the checkout.
 set -euo pipefail
 
 checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -34,6 +34,7 @@ build() {
   # The devel space stands beside: rosrun does not look into folders called build.
   cmake -S "$checkout" -B "$build" -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
     -DCATKIN_DEVEL_PREFIX="$checkout/devel" -DCMAKE_INSTALL_PREFIX="$checkout/install" \
+    -DRIGID_BODY_SIM_BENCHMARKS="${benchmarks:-OFF}" \
     >"$build/configure.log" || { cat "$build/configure.log"; return 1; }
   # catkin reports every message package of ROS at every build: left out.
   cmake --build "$build" --parallel "$(nproc)" --target "$@" | sed -u '/Built target/d'

@@ -1,0 +1,108 @@
+// The program around one engine: makes it fly when told to on its standard input. A process of its
+// own for each, as two builds of an engine (Bullet's) have the same symbols, and as an engine may
+// end its process.
+//
+//   list                      the rows of this engine, fields by tabs
+//   error ROW LOAD STEP TIME  attitude error [rad] after TIME [s] in steps of STEP [s]
+//   open ROW LOAD BODIES      answers with a handle
+//   time HANDLE NS            steps for NS [ns]; answers with the time of a step of one body [ns]
+//   close HANDLE
+//
+// A line with a dot ends every answer.
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "peer.hpp"
+
+namespace rigid_body_sim::bench {
+namespace {
+
+struct Opened {
+  Peer peer;
+  Eigen::Index bodies;
+};
+
+class Worker {
+ public:
+  std::string answer(const std::string& line) {
+    std::istringstream words(line);
+    std::string verb;
+    words >> verb;
+    std::ostringstream text;
+    text.precision(9);
+    if (verb == "list") list(text);
+    if (verb == "error") text << error(words);
+    if (verb == "open") text << open(words);
+    if (verb == "time") text << time(words);
+    if (verb == "close") {
+      int handle = 0;
+      words >> handle;
+      opened_.erase(handle);
+    }
+    return text.str();
+  }
+
+ private:
+  void list(std::ostream& text) const {
+    for (const PeerRow& row : rows_)
+      text << row.engine << '\t' << row.way << '\t' << row.about << '\t' << row.most_bodies << '\t'
+           << row.limit << '\t' << row.is_gyroscopic_optional << '\t' << row.needs_wrenches << '\n';
+  }
+
+  double error(std::istream& words) const {
+    std::size_t row = 0;
+    std::string load;
+    double step_s = 0, time_s = 0;
+    words >> row >> load >> step_s >> time_s;
+    const Scene scene = makeScene(loadNamed(load), 1, step_s);
+    const Peer peer = rows_.at(row).make(scene);
+    peer.reset();
+    peer.step(static_cast<int>(std::lround(time_s / step_s)));
+    return attitudeError(scene, peer.attitudeOf(0), time_s);
+  }
+
+  int open(std::istream& words) {
+    std::size_t row = 0;
+    std::string load;
+    Eigen::Index bodies = 0;
+    words >> row >> load >> bodies;
+    constexpr double kStep = 0.02;  // [s] the package's default
+    opened_[++last_] = {rows_.at(row).make(makeScene(loadNamed(load), bodies, kStep)), bodies};
+    return last_;
+  }
+
+  double time(std::istream& words) {
+    int handle = 0;
+    double least_ns = 0;
+    words >> handle >> least_ns;
+    const Opened& one = opened_.at(handle);
+    return timeStep(one.peer, one.bodies, least_ns) / static_cast<double>(one.bodies);
+  }
+
+  std::vector<PeerRow> rows_ = peerRows();
+  std::map<int, Opened> opened_;
+  int last_ = 0;
+};
+
+}  // namespace
+}  // namespace rigid_body_sim::bench
+
+int main() try {
+  // What an engine prints of its own goes to the error output.
+  std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  rigid_body_sim::bench::Worker worker;
+  for (std::string line; std::getline(std::cin, line);) {
+    std::fprintf(answers, "%s\n.\n", worker.answer(line).c_str());
+    std::fflush(answers);
+  }
+} catch (const std::exception& error) {
+  std::cerr << error.what() << "\n";
+  return 1;
+}
