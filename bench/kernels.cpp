@@ -13,9 +13,24 @@ namespace {
 struct Scene {
   std::ptrdiff_t count;
   std::vector<double> mass, I, p, q, P, L, f, t;
+  std::vector<double> p_stage, q_stage, P_stage, L_stage, tiles, spins;
 
   explicit Scene(std::ptrdiff_t n)
-      : count(n), mass(n), I(3 * n), p(3 * n), q(4 * n), P(3 * n), L(3 * n), f(3 * n), t(3 * n) {
+      : count(n),
+        mass(n),
+        I(3 * n),
+        p(3 * n),
+        q(4 * n),
+        P(3 * n),
+        L(3 * n),
+        f(3 * n),
+        t(3 * n),
+        p_stage(3 * n),
+        q_stage(4 * n),
+        P_stage(3 * n),
+        L_stage(3 * n),
+        tiles(tileSize(n, kRk4Numbers)),
+        spins(tileSize(n, kSpinNumbers)) {
     std::mt19937 engine(1);
     const auto number = [&] { return engine() * 0x1p-31 - 1; };
     for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -36,6 +51,10 @@ struct Scene {
   BodyColumns bodies() {
     return {count, mass.data(), I.data(), p.data(), q.data(), P.data(), L.data()};
   }
+  BodyColumns stages() {
+    return {count,          nullptr,        nullptr,       p_stage.data(),
+            q_stage.data(), P_stage.data(), L_stage.data()};
+  }
   WrenchColumns wrenches() const { return {count, f.data(), t.data()}; }
 };
 
@@ -47,11 +66,9 @@ constexpr std::ptrdiff_t kBlock = 128;
 template <class Step>
 void measure(benchmark::State& state, const Step& step) {
   Scene scene(state.range(0));
-  const BodyColumns bodies = scene.bodies();
-  const WrenchColumns wrenches = scene.wrenches();
   for (auto _ : state) {
     for (std::ptrdiff_t i = 0; i < scene.count; i += kBlock)
-      step(bodies, wrenches, Range{i, std::min(i + kBlock, scene.count)});
+      step(scene, Range{i, std::min(i + kBlock, scene.count)});
     benchmark::ClobberMemory();
   }
   state.counters["body"] =
@@ -71,17 +88,40 @@ void add(const std::string& name, const Step& step) {
 
 void addAll(const Kernels& k) {
   const std::string name = k.name;
-  add("kick/" + name, [&k](const auto& b, const auto& w, Range r) { k.kick(b, w, kStep, r); });
+  add("kick/" + name, [&k](Scene& s, Range r) { k.kick(s.bodies(), s.wrenches(), kStep, r); });
   add("constant_rate/" + name,
-      [&k](const auto& b, const auto&, Range r) { k.driftAtConstantRate(b, nullptr, kStep, r); });
-  add("semi_implicit/" + name,
-      [&k](const auto& b, const auto& w, Range r) { k.driftAtConstantRate(b, &w, kStep, r); });
-  add("split2/" + name, [&k](const auto& b, const auto& w, Range r) {
-    k.driftBySplitting(b, nullptr, kStep, r);
-    k.kick(b, w, kStep, r);
+      [&k](Scene& s, Range r) { k.driftAtConstantRate(s.bodies(), nullptr, kStep, r); });
+  add("semi_implicit/" + name, [&k](Scene& s, Range r) {
+    const WrenchColumns wrenches = s.wrenches();
+    k.driftAtConstantRate(s.bodies(), &wrenches, kStep, r);
+  });
+  add("split2/" + name, [&k](Scene& s, Range r) {
+    const WrenchColumns wrenches = s.wrenches();
+    k.driftBySplitting(s.bodies(), &wrenches, kStep, r);
+    k.kick(s.bodies(), wrenches, kStep, r);
   });
   add("no_gyro/" + name,
-      [&k](const auto& b, const auto&, Range r) { k.driftWithoutGyroscopicTerm(b, kStep, r); });
+      [&k](Scene& s, Range r) { k.driftWithoutGyroscopicTerm(s.bodies(), kStep, r); });
+  add("rk4_free/" + name, [&k](Scene& s, Range r) { k.rk4Free(s.bodies(), kStep, r); });
+  add("rk4/" + name, [&k](Scene& s, Range r) {
+    for (int stage = 0; stage < 4; ++stage)
+      k.rk4Stage(s.bodies(), s.stages(), s.wrenches(), s.tiles.data(), stage, kStep, r);
+  });
+  add("coasting/" + name, [&k](Scene& s, Range r) {
+    k.recallSpins(s.bodies(), s.spins.data(), r);
+    k.driftSpins(s.bodies(), s.spins.data(), kStep, r);
+  });
+  add("coasting_only/" + name, [&k](Scene& s, Range r) {
+    if (s.spins[0] == 0) k.recallSpins(s.bodies(), s.spins.data(), {0, s.count});
+    k.driftSpins(s.bodies(), s.spins.data(), kStep, r);
+  });
+  add("exact/" + name, [&k](Scene& s, Range r) {
+    double* spins = s.spins.data();
+    k.recallSpins(s.bodies(), spins, r);
+    k.kickSpins(s.bodies(), s.wrenches(), spins, 0.5 * kStep, r);
+    k.driftSpins(s.bodies(), spins, kStep, r);
+    k.kickSpins(s.bodies(), s.wrenches(), spins, 0.5 * kStep, r);
+  });
 }
 
 }  // namespace

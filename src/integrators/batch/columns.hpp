@@ -28,4 +28,20 @@ struct WrenchColumns {
   const double* t_Bcm_W;
 };
 
+/// Numbers that a method keeps of each body for itself, in tiles of eight bodies: all their first
+/// numbers, all their second, and so on. A step reads one stretch of memory, whose columns cannot
+/// push each other out of the cache. Ranges begin at a multiple of eight.
+constexpr std::ptrdiff_t kTile = 8;
+
+/// How many numbers the tiles of `count` bodies take.
+constexpr std::ptrdiff_t tileSize(std::ptrdiff_t count, int numbers) {
+  return (count + kTile - 1) / kTile * kTile * numbers;
+}
+
+/// What rk4 keeps of a body from stage to stage.
+constexpr int kRk4Numbers = 28;
+
+/// What `exact` remembers of a body. Tiles of zeros remember nothing.
+constexpr int kSpinNumbers = 37;
+
 }  // namespace rigid_body_sim::batch

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "integrators/batch/huge_angle.hpp"
 #include "integrators/batch/pack.hpp"
+#include "integrators/batch/rare.hpp"
 
 // Sine and cosine of our own, as those of the C library have no form for packs, and other last bits
 // on other processors.

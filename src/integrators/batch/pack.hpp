@@ -197,27 +197,56 @@ RBS_INLINE Pack<w> withSign(Pack<w> x, Pack<w> sign) {
   return ofBits<w>((bitsOf(x) & ~kSignBit) | (bitsOf(sign) & kSignBit));
 }
 
+/// 2^(1023 - n) with 2^n <= |x| < 2^(n+1), for -1022 <= n <= 1022.
+template <int w>
+RBS_INLINE Pack<w> mirroredPower(Pack<w> x) {
+  return ofBits<w>(0x7fe0000000000000 - (bitsOf(x) & 0x7ff0000000000000));
+}
+RBS_INLINE double mirroredPower(double x) {
+  long long lanes;
+  __builtin_memcpy(&lanes, &x, sizeof(x));
+  lanes = 0x7fe0000000000000 - (lanes & 0x7ff0000000000000);
+  __builtin_memcpy(&x, &lanes, sizeof(x));
+  return x;
+}
+/// 1 / 2^n with 2^n <= |x| < 2^(n+1); for subnormal x, of the smallest normal one.
 template <class S>
-RBS_INLINE S square(S x) {
-  return x * x;
+RBS_INLINE S inversePower(S x) {
+  return 0.5 * mirroredPower(0.5 * x);
+}
+
+/// The first `count` numbers; the other lanes repeat the first one.
+template <class S>
+[[gnu::noinline]] S loadPart(const double* from, int count) {
+  double all[kWidth<S>];
+  for (int i = 0; i < kWidth<S>; ++i) all[i] = from[i < count ? i : 0];
+  S x;
+  __builtin_memcpy(&x.lanes, all, sizeof(all));
+  return x;
+}
+template <class S>
+[[gnu::noinline]] void storePart(double* to, S x, int count) {
+  double all[kWidth<S>];
+  __builtin_memcpy(all, &x.lanes, sizeof(all));
+  for (int i = 0; i < count; ++i) to[i] = all[i];
 }
 
 /// Which numbers of the columns a pack is: those from `begin` on. With is_part only the first
 /// `count` of them; the other lanes then repeat the first, so that they cannot take a longer way.
 template <class S, bool is_part>
 struct At {
+  using Number = S;
   std::ptrdiff_t begin;
   int count = kWidth<S>;
 
-  RBS_INLINE S load(const double* column) const {
-    const double* from = column + begin;
+  RBS_INLINE S load(const double* column) const { return loadFrom(column + begin); }
+  RBS_INLINE void store(double* column, S x) const { storeTo(column + begin, x); }
+
+  RBS_INLINE S loadFrom(const double* from) const {
     if constexpr (kWidth<S> == 1) {
       return *from;
     } else if constexpr (is_part) {
-      S x(*from);
-      for (int i = 1; i < kWidth<S>; ++i)
-        if (i < count) x.lanes[i] = from[i];
-      return x;
+      return loadPart<S>(from, count);
     } else {
       S x;
       __builtin_memcpy(&x.lanes, from, sizeof(x.lanes));
@@ -225,18 +254,26 @@ struct At {
     }
   }
 
-  RBS_INLINE void store(double* column, S x) const {
-    double* to = column + begin;
+  RBS_INLINE void storeTo(double* to, S x) const {
     if constexpr (kWidth<S> == 1) {
       *to = x;
     } else if constexpr (is_part) {
-      for (int i = 0; i < kWidth<S>; ++i)
-        if (i < count) to[i] = x.lanes[i];
+      storePart(to, x, count);
     } else {
       __builtin_memcpy(to, &x.lanes, sizeof(x.lanes));
     }
   }
 };
+
+/// Of a place that a function got by reference.
+template <class Place>
+struct NumberOfPlace;
+template <class S, bool is_part>
+struct NumberOfPlace<const At<S, is_part>&> {
+  using Type = S;
+};
+template <class Place>
+using NumberOf = typename NumberOfPlace<Place>::Type;
 
 /// Calls `work` for all numbers from `begin` to `end`, a pack at a time. A single one is worked on
 /// as a plain double, which costs it least.

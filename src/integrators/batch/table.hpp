@@ -2,6 +2,8 @@
 
 #include "integrators/batch/drift.hpp"
 #include "integrators/batch/kernels.hpp"
+#include "integrators/batch/rk4.hpp"
+#include "integrators/batch/spins.hpp"
 
 namespace rigid_body_sim::batch {
 namespace {
@@ -22,6 +24,14 @@ void fillTable(Kernels& table) {
   table.driftAtConstantRate = kickAndDrift<S, ConstantRate>;
   table.driftBySplitting = kickAndDrift<S, Split>;
   table.driftWithoutGyroscopicTerm = driftWithoutGyroscopicTerm<S>;
+  table.rk4Stage = rk4Stage<S, true, EffectsSee::kPose>;
+  table.rk4StageWithVelocity = rk4Stage<S, true, EffectsSee::kVelocityToo>;
+  table.rk4StageWithoutGyroscopicTerm = rk4Stage<S, false, EffectsSee::kVelocityToo>;
+  table.rk4Free = rk4Free<S, true>;
+  table.rk4FreeWithoutGyroscopicTerm = rk4Free<S, false>;
+  table.recallSpins = recallSpins<S>;
+  table.kickSpins = kickSpins<S>;
+  table.driftSpins = driftSpins<S>;
 }
 
 }  // namespace

@@ -115,6 +115,14 @@ RBS_INLINE HalfAngle<S> halfAngle(S angle) {
   return {f.cos, f.sin};
 }
 
+/// The number that is largest in size, without its sign.
+template <class S>
+RBS_INLINE S largest(const Vector<S>& v) {
+  const S x = magnitude(v.x), y = magnitude(v.y), z = magnitude(v.z);
+  const S xy = select(x < y, y, x);
+  return select(xy < z, z, xy);
+}
+
 /// Three or four columns, `stride` apart.
 template <class Place>
 RBS_INLINE auto loadVector(const Place& at, const double* columns, std::ptrdiff_t stride) {

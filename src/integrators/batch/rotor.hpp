@@ -1,0 +1,205 @@
+#pragma once
+
+#include "integrators/batch/orbit.hpp"
+
+namespace rigid_body_sim::batch {
+namespace {
+
+/// What a torque-free body does in some time, see rigid_body_sim::FreeRotation.
+template <class S>
+struct FreeRotation {
+  Quaternion<S> q_BBnext;
+  Vector<S> m_B;
+};
+
+/// Half of the angle by which a body turns about its momentum, as seen along axis d and in orbit's
+/// axes, but for its length and the angle between the momenta.
+template <class S>
+RBS_INLINE HalfAngle<S> slowTurn(const Orbit<S>& o, const InverseMoments<S>& a, const S& G,
+                                 double h, const OrbitStep<S>& step) {
+  return halfAngle(o.about * (h * (a.a2 * G)) + step.linear) * step.other;
+}
+
+/// As exactRotation() beside this folder; `m_B` is not zero.
+template <class S>
+RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& I,
+                                         const InverseMoments<S>& a, double h) {
+  const Direction<S> momentum = directionOf(m_B);
+  const Orbit<S> o = orbitOf(momentum.m, a);
+  const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
+  const Jacobi<S>& f = step.f;
+  const S s = f.sn / o.lambda;
+  const S q = o.W / (o.md * o.md + o.m2 * o.m2 * o.dc * (f.cn * f.cn));
+  const S md = (o.md * f.dn - o.dc * s * o.mc * o.m2 * f.cn) * q;
+  const S mc = (o.mc * f.cn - o.dd * s * o.m2 * o.md * f.dn) * q;
+  const S m2 = (o.m2 * f.cn * f.dn + s * o.mc * o.md) * q;
+
+  // The angle between the momenta as seen along d, as the argument of a complex number.
+  const S one(1.0);
+  const S sign_d = withSign(one, o.md);
+  const S num = -(s * o.dc * o.m2 * m2);
+  const S den = o.R + o.dc * m2 * m2 - o.dc * s * o.m2 * mc * md;
+  const S cross = sign_d * (o.mc * m2 - o.m2 * mc);
+  const S dot = o.mc * mc + o.m2 * m2;
+  HalfAngle<S> spin = slowTurn(o, a, momentum.G, h, step) *
+                      rootDirection(den * dot + num * cross, num * dot - den * cross);
+  spin.sin = sign_d * spin.sin;
+
+  // P^-1 (spin about d) P', with P the shortest rotation of the momentum before to the axis d, P'
+  // of that after; |P|^2 = 2 (1 + |md|).
+  const S before = 1 + magnitude(o.md), after = 1 + magnitude(md);
+  const S scale = 1 / root(4 * before * after * (spin.cos * spin.cos + spin.sin * spin.sin));
+  const S C = scale * spin.cos, D = scale * spin.sin;
+  const S x = sign_d * mc, y = sign_d * m2;
+  const Quaternion<S> first = {-(sign_d * o.m2), sign_d * o.mc, S(0.0), before};
+  const Quaternion<S> then = {C * y + D * x, D * y - C * x, D * after, C * after};
+  const auto turns = !o.is_fixed_axis;
+  const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, first * then);
+  const Vector<S> next = momentum.G * momentumFromOrbit(o.is_around_1, mc, m2, md);
+  if (all(turns)) return {turn, next};
+  const Quaternion<S> about_axis = rotationExp(h * quotient(m_B, I));
+  return {select(turns, turn, about_axis), select(turns, next, m_B)};
+}
+
+/// As rigid_body_sim::Coasting, in the orbit's axes. A body that turns about a fixed axis is one
+/// whose phase stands still.
+template <class S>
+struct Coasting {
+  // Constants.
+  Quaternion<S> q_WE;  ///< attitude without psi and with the momentum along d
+  HalfAngle<S> turn;   ///< a step's about E, but for the angle between the momenta
+  Jacobi<S> of_step;   ///< sn = 0: fixed axis
+  S kc2, num, den;
+  S root_dd;  ///< negative around axis 1
+  S B_2;      ///< largest size of m2, see momentumOf()
+  S B_d;      ///< md = B_d dn of the phase
+  S G;
+  // What moves.
+  S s, c, d;  ///< sn, cn, dn of the phase
+  HalfAngle<S> psi;
+};
+
+/// The momentum along c, 2 and d, for G = 1.
+template <class S>
+struct OrbitMomentum {
+  S c, two, d;
+};
+
+template <class S>
+RBS_INLINE OrbitMomentum<S> momentumOf(const Coasting<S>& x) {
+  const S sign_d = withSign(S(1.0), x.B_d);
+  return {x.B_2 * magnitude(x.root_dd) * x.c, sign_d * (x.B_2 * x.s), x.B_d * x.d};
+}
+template <class S>
+RBS_INLINE Vector<S> bodyMomentumOf(const Coasting<S>& x) {
+  const OrbitMomentum<S> m = momentumOf(x);
+  return x.G * momentumFromOrbit(x.root_dd < 0, m.c, m.two, m.d);
+}
+
+/// Puts what a body that turns about a fixed axis needs where `is_fixed`.
+template <class S>
+RBS_INLINE void setFixedAxis(typename MaskOf<S>::Type is_fixed, const Orbit<S>& o, const S& angle,
+                             Coasting<S>& x) {
+  const S one(1.0), none(0.0);
+  x.of_step = {select(is_fixed, none, x.of_step.sn), select(is_fixed, one, x.of_step.cn),
+               select(is_fixed, one, x.of_step.dn)};
+  x.kc2 = select(is_fixed, one, x.kc2);
+  x.num = select(is_fixed, none, x.num);
+  x.den = select(is_fixed, none, x.den);
+  x.root_dd = select(is_fixed, o.about, x.root_dd);
+  const S across = root(o.mc * o.mc + o.m2 * o.m2);
+  const auto is_along = across == 0;
+  const S safe = select(is_along, one, across);
+  const S sign_d = withSign(one, o.md);
+  x.B_2 = select(is_fixed, across, x.B_2);
+  x.B_d = select(is_fixed, o.md, x.B_d);
+  x.s = select(is_fixed, sign_d * o.m2 / safe, x.s);
+  x.c = select(is_fixed, select(is_along, one, o.mc / safe), x.c);
+  const HalfAngle<S> turn = halfAngle(o.about * angle);
+  x.turn = {select(is_fixed, turn.cos, x.turn.cos), select(is_fixed, turn.sin, x.turn.sin)};
+}
+
+/// @param m_B not zero
+template <class S>
+RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_B,
+                                  const Vector<S>& I, const InverseMoments<S>& a, double h) {
+  const S one(1.0);
+  const Direction<S> momentum = directionOf(m_B);
+  const Orbit<S> o = orbitOf(momentum.m, a);
+  const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
+  const S sign_d = withSign(one, o.md);
+  Coasting<S> x;
+  x.turn = normalized(slowTurn(o, a, momentum.G, h, step));
+  x.of_step = step.f;
+  x.kc2 = o.kc2;
+  x.num = -(o.dc / (o.lambda * o.dd) * step.f.sn);
+  x.den = o.dc / o.dd;
+  const S root_dd = root(o.dd);
+  x.root_dd = o.about * root_dd;
+  x.B_2 = root(o.R) / root_dd;
+  x.B_d = sign_d * root(o.W);
+  x.G = momentum.G;
+  x.s = sign_d * o.m2 / x.B_2;
+  x.c = o.mc / (x.B_2 * root_dd);
+  if (any(o.is_fixed_axis)) {
+    const Vector<S> w = quotient(momentum.m, I);
+    setFixedAxis(o.is_fixed_axis, o, h * (momentum.G * dot(momentum.m, w)), x);
+  }
+  x.turn.sin = sign_d * x.turn.sin;
+  const S scale = 1 / root(x.s * x.s + x.c * x.c);
+  x.s = scale * x.s;
+  x.c = scale * x.c;
+  x.d = root(x.c * x.c + x.kc2 * x.s * x.s);
+  x.psi = {one, S(0.0)};
+  // The inverse of the shortest rotation that takes the momentum to axis d.
+  const OrbitMomentum<S> m = momentumOf(x);
+  const S w = 1 + magnitude(m.d);
+  const Quaternion<S> back = {-(sign_d * m.two), sign_d * m.c, S(0.0), w};
+  const Quaternion<S> q_WE = q_WB * fromOrbit(o.is_around_1, o.about, back);
+  x.q_WE = scaled(1 / root(squaredNorm(q_WE)), q_WE);
+  return x;
+}
+
+/// One step on. @returns the attitude after it
+template <class S>
+RBS_INLINE Quaternion<S> coast(Coasting<S>& x) {
+  const Jacobi<S>& f = x.of_step;
+  // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
+  const S k2cn2 = (1 - x.kc2) * (f.cn * f.cn);
+  const S i = 1 / (x.d * x.d + k2cn2 * (x.s * x.s));
+  S s = (x.s * (f.cn * f.dn) + f.sn * (x.c * x.d)) * i;
+  S c = (x.c * f.cn - f.sn * f.dn * (x.s * x.d)) * i;
+  // Back to s^2 + c^2 = 1 by a Newton step.
+  const S unit = 1.5 - 0.5 * (s * s + c * c);
+  s = unit * s;
+  c = unit * c;
+  const S d = root(c * c + x.kc2 * (s * s));
+
+  const S dd = x.root_dd * x.root_dd;
+  const S num = x.num * x.s * s;
+  const S den = 1 + x.den * (s * s - f.sn * x.s * c * d);
+  const S cross = magnitude(x.root_dd) * (x.c * s - x.s * c);
+  const S dot = dd * (x.c * c) + x.s * s;
+  HalfAngle<S> between = rootDirection(den * dot + num * cross, num * dot - den * cross);
+  const S sign_d = withSign(S(1.0), x.B_d);
+  const auto stays = f.sn == 0;  // the phase's roundings are no turn
+  between = {select(stays, S(1.0), between.cos), select(stays, S(0.0), sign_d * between.sin)};
+  x.psi = normalized(x.psi * (x.turn * between));
+  x.s = s;
+  x.c = c;
+  x.d = d;
+
+  // exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
+  const OrbitMomentum<S> m = momentumOf(x);
+  const S w = 1 + magnitude(m.d);
+  const S mx = sign_d * m.c, my = sign_d * m.two;
+  const S C = x.psi.cos, D = x.psi.sin;
+  const auto is_around_1 = x.root_dd < 0;
+  const Quaternion<S> turn = fromOrbit<S>(is_around_1, withSign(S(1.0), x.root_dd),
+                                          {C * my + D * mx, D * my - C * mx, w * D, w * C});
+  const Quaternion<S> q_WB = x.q_WE * turn;
+  return scaled(1 / root(squaredNorm(q_WB)), q_WB);
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::batch
