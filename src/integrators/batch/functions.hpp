@@ -52,8 +52,10 @@ constexpr double kLargestAngle = 1 << 20;
 template <class S>
 RBS_INLINE SinCos<S> sinCosOfModerate(S x) {
   const S n = (x * 6.36619772367581382433e-01 + kRounder) - kRounder;
-  const S coarse = (x - n * 1.57079632673412561417e+00) - n * 6.07710050630396597660e-11;
-  const S fine = n * 2.02226624879595063154e-21;
+  const S first = x - n * 1.57079632673412561417e+00;  // exact, as is the next product
+  const S second = n * 6.07710050630396597660e-11;
+  const S coarse = first - second;
+  const S fine = n * 2.02226624879595063154e-21 - ((first - coarse) - second);
   const S r = coarse - fine;
   const S tail = (coarse - r) - fine;
   const S z = r * r;
