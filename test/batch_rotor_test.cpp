@@ -143,10 +143,10 @@ TEST(BatchRotor, IsBitEqualAtEveryScaleByPowersOfTwo) {
 /// Attitude and momentum after some coasted steps.
 rigid_body_sim::FreeRotation coasted(const Vector3d& m_B, const Vector3d& I, double h, int steps) {
   const Vector<double> moments = toBatch(I);
-  Quaternion<double> q_WB = {0, 0, 0, 1};
+  const Quaternion<double> q_WB = {0, 0, 0, 1};
   Coasting<double> coasting = coastingOf(q_WB, toBatch(m_B), moments, inverseMoments(moments), h);
-  for (int i = 0; i < steps; ++i) q_WB = coast(coasting);
-  return {fromBatch(q_WB), fromBatch(bodyMomentumOf(coasting))};
+  for (int i = 0; i < steps; ++i) coast(coasting);
+  return {fromBatch(attitudeOf(coasting)), fromBatch(bodyMomentumOf(coasting))};
 }
 
 TEST(BatchCoasting, IsTheExactRotationStepByStep) {

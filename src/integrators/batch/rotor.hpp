@@ -75,8 +75,8 @@ struct Coasting {
   S B_d;      ///< md = B_d dn of the phase
   S G;
   // What moves.
-  S s, c, d;  ///< sn, cn, dn of the phase
-  HalfAngle<S> psi;
+  S s, c, d;         ///< sn, cn, dn of the phase
+  HalfAngle<S> psi;  ///< of any length: the next step need not wait for a root
 };
 
 /// The momentum along c, 2 and d, for G = 1.
@@ -160,9 +160,9 @@ RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_
   return x;
 }
 
-/// One step on. @returns the attitude after it
+/// One step on: the phase, and what the body has turned about E.
 template <class S>
-RBS_INLINE Quaternion<S> coast(Coasting<S>& x) {
+RBS_INLINE void coast(Coasting<S>& x) {
   const Jacobi<S>& f = x.of_step;
   // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
   const S k2cn2 = (1 - x.kc2) * (f.cn * f.cn);
@@ -181,21 +181,23 @@ RBS_INLINE Quaternion<S> coast(Coasting<S>& x) {
   const S cross = magnitude(x.root_dd) * (x.c * s - x.s * c);
   const S dot = dd * (x.c * c) + x.s * s;
   HalfAngle<S> between = rootDirection(den * dot + num * cross, num * dot - den * cross);
-  const S sign_d = withSign(S(1.0), x.B_d);
   const auto stays = f.sn == 0;  // the phase's roundings are no turn
-  between = {select(stays, S(1.0), between.cos), select(stays, S(0.0), sign_d * between.sin)};
-  x.psi = normalized(x.psi * (x.turn * between));
+  between = {select(stays, S(1.0), between.cos),
+             select(stays, S(0.0), withSign(S(1.0), x.B_d) * between.sin)};
+  x.psi = (normalized(x.psi) * x.turn) * between;
   x.s = s;
   x.c = c;
   x.d = d;
+}
 
-  // exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
-  const OrbitMomentum<S> m = momentumOf(x);
-  const S w = 1 + magnitude(m.d);
-  const S mx = sign_d * m.c, my = sign_d * m.two;
+/// exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
+template <class S>
+RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x) {
+  const S r = magnitude(x.root_dd);
+  const S w = 1 + magnitude(x.B_d) * x.d;
+  const S mx = withSign(x.B_2 * r, x.B_d) * x.c, my = x.B_2 * x.s;
   const S C = x.psi.cos, D = x.psi.sin;
-  const auto is_around_1 = x.root_dd < 0;
-  const Quaternion<S> turn = fromOrbit<S>(is_around_1, withSign(S(1.0), x.root_dd),
+  const Quaternion<S> turn = fromOrbit<S>(x.root_dd < 0, withSign(S(1.0), x.root_dd),
                                           {C * my + D * mx, D * my - C * mx, w * D, w * C});
   const Quaternion<S> q_WB = x.q_WE * turn;
   return scaled(1 / root(squaredNorm(q_WB)), q_WB);

@@ -195,55 +195,83 @@ RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Q
   q_WB = select(is_off & !is_lost, turned, q_WB);
 }
 
-/// Lanes that do not coast.
-template <class Place, class Tile, class M, class S>
-RBS_INLINE Quaternion<S> rotateSpin(const Place& at, const BodyColumns& bodies, const Tile& tile,
-                                    M mask, const Quaternion<S>& q_WB, const Vector<S>& L_W,
-                                    double h) {
+template <class Tile>
+RBS_INLINE InverseMoments<typename Tile::S> loadInverse(const Tile& tile) {
+  return {tile.load(kSpinInverse), tile.load(kSpinInverse + 1), tile.load(kSpinInverse + 2),
+          tile.load(kSpinInverse + 3)};
+}
+
+/// Turns lanes that do not coast.
+template <class Place, class Tile, class M>
+[[gnu::noinline]] void rotateSpins(const Place& at, const BodyColumns& bodies, const Tile& tile,
+                                   M mask, double h) {
+  using S = typename Tile::S;
   const Vector<S> m_B = momentumAfterCoasting(tile, mask);
-  const InverseMoments<S> a = {tile.load(kSpinInverse), tile.load(kSpinInverse + 1),
-                               tile.load(kSpinInverse + 2), tile.load(kSpinInverse + 3)};
-  const FreeRotation<S> free =
-      exactRotation(m_B, loadVector(at, bodies.I_BBcm_B, bodies.stride), a, h);
+  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+  const FreeRotation<S> free = exactRotation(m_B, I, loadInverse(tile), h);
+  const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
   Quaternion<S> next = renormalized(q_WB * free.q_BBnext);
   Vector<S> m_next = free.m_B;
-  alignSpin<S>(mask, L_W, next, m_next);
+  alignSpin<S>(mask, tile.loadVector(kSpinL), next, m_next);
   tile.storeVector(kSpinM, select(mask, m_next, m_B));
   storeWhere(tile, mask, kSpinDrift, S(h));
-  return select(mask, next, q_WB);
+  next = select(mask, next, q_WB);
+  tile.storeQuaternion(kSpinQ, next);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, next);
 }
+
+/// The second equal drift in a row without torque.
+template <class Place, class Tile, class M>
+[[gnu::noinline]] void beginToCoast(const Place& at, const BodyColumns& bodies, const Tile& tile,
+                                    M mask, double h) {
+  using S = typename Tile::S;
+  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+  storeCoasting(
+      tile, mask,
+      coastingOf<S>(tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinM), I, loadInverse(tile), h));
+  storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
+}
+
+/// All but the attitudes of those that coast.
+template <class Place>
+RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto spins = !isZero(tile.loadVector(kSpinL));
+  const auto goes_on = spins & (tile.load(kSpinDrift) == h);
+  if (any(goes_on)) {
+    const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
+    if (any(begins)) beginToCoast(at, bodies, tile, begins, h);
+    auto x = loadCoasting(tile);
+    coast(x);
+    storeMoved(tile, goes_on, x);
+  }
+  const auto rotates = spins & !goes_on;
+  if (any(rotates)) rotateSpins(at, bodies, tile, rotates, h);
+}
+
+template <class Place>
+RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies, double* tiles) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto coasts = tile.load(kSpinIsCoasting) == 1;
+  if (!any(coasts)) return;
+  const auto q_WB = select(coasts, attitudeOf(loadCoasting(tile)), tile.loadQuaternion(kSpinQ));
+  tile.storeQuaternion(kSpinQ, q_WB);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
+}
+
+/// How many bodies go through the parts of a drift together. Parts, as the processor looks only so
+/// far ahead: of a whole drift it would see one pack at a time, and wait for each root in it.
+constexpr std::ptrdiff_t kTogether = 32;
 
 template <class S>
 void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
   const BodyColumns bodies = of;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
-    using T = NumberOf<decltype(at)>;
-    driftPosition(at, bodies, loadVector(at, bodies.P_WB, bodies.stride), h);
-    const auto tile = inTile<kSpinNumbers>(at, tiles);
-    const Vector<T> L_W = tile.loadVector(kSpinL);
-    const auto spins = !isZero(L_W);
-    if (!any(spins)) return;
-    const auto goes_on = spins & (tile.load(kSpinDrift) == h);
-    const auto rotates = spins & !goes_on;
-    Quaternion<T> q_WB = tile.loadQuaternion(kSpinQ);
-    if (any(goes_on)) {
-      const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
-      if (any(begins)) {  // the second equal drift in a row without torque
-        const InverseMoments<T> a = {tile.load(kSpinInverse), tile.load(kSpinInverse + 1),
-                                     tile.load(kSpinInverse + 2), tile.load(kSpinInverse + 3)};
-        storeCoasting(tile, begins,
-                      coastingOf<T>(q_WB, tile.loadVector(kSpinM),
-                                    loadVector(at, bodies.I_BBcm_B, bodies.stride), a, h));
-        storeWhere(tile, begins, kSpinIsCoasting, T(1.0));
-      }
-      Coasting<T> x = loadCoasting(tile);
-      q_WB = select(goes_on, coast(x), q_WB);
-      storeMoved(tile, goes_on, x);
-    }
-    if (any(rotates)) q_WB = rotateSpin(at, bodies, tile, rotates, q_WB, L_W, h);
-    tile.storeQuaternion(kSpinQ, q_WB);
-    storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
-  });
+  for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogether) {
+    const std::ptrdiff_t end = i + kTogether < range.end ? i + kTogether : range.end;
+    driftPositions<S>(bodies, h, {i, end});
+    forPacks<S>(i, end, [=](const auto& at) { moveSpins(at, bodies, tiles, h); });
+    forPacks<S>(i, end, [=](const auto& at) { setCoastingAttitudes(at, bodies, tiles); });
+  }
 }
 
 }  // namespace
