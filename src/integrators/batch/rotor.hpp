@@ -76,7 +76,7 @@ struct Coasting {
   S G;
   // What moves.
   S s, c, d;         ///< sn, cn, dn of the phase
-  HalfAngle<S> psi;  ///< of any length: the next step need not wait for a root
+  HalfAngle<S> psi;  ///< of a length near one, but not one: that would take a root
 };
 
 /// The momentum along c, 2 and d, for G = 1.
@@ -184,7 +184,10 @@ RBS_INLINE void coast(Coasting<S>& x) {
   const auto stays = f.sn == 0;  // the phase's roundings are no turn
   between = {select(stays, S(1.0), between.cos),
              select(stays, S(0.0), withSign(S(1.0), x.B_d) * between.sin)};
-  x.psi = (normalized(x.psi) * x.turn) * between;
+  const HalfAngle<S> psi = x.psi * x.turn * between;
+  const S size = magnitude(psi.cos) + magnitude(psi.sin);
+  const S scale = inversePower(size);
+  x.psi = {scale * psi.cos, scale * psi.sin};
   x.s = s;
   x.c = c;
   x.d = d;

@@ -202,10 +202,10 @@ RBS_INLINE InverseMoments<typename Tile::S> loadInverse(const Tile& tile) {
 }
 
 /// Turns lanes that do not coast.
-template <class Place, class Tile, class M>
-[[gnu::noinline]] void rotateSpins(const Place& at, const BodyColumns& bodies, const Tile& tile,
-                                   M mask, double h) {
-  using S = typename Tile::S;
+template <class Place, class M>
+[[gnu::noinline]] void rotateSpins(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
   const Vector<S> m_B = momentumAfterCoasting(tile, mask);
   const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
   const FreeRotation<S> free = exactRotation(m_B, I, loadInverse(tile), h);
@@ -221,10 +221,10 @@ template <class Place, class Tile, class M>
 }
 
 /// The second equal drift in a row without torque.
-template <class Place, class Tile, class M>
-[[gnu::noinline]] void beginToCoast(const Place& at, const BodyColumns& bodies, const Tile& tile,
-                                    M mask, double h) {
-  using S = typename Tile::S;
+template <class Place, class M>
+[[gnu::noinline]] void beginToCoast(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
   const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
   storeCoasting(
       tile, mask,
@@ -240,13 +240,13 @@ RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* ti
   const auto goes_on = spins & (tile.load(kSpinDrift) == h);
   if (any(goes_on)) {
     const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
-    if (any(begins)) beginToCoast(at, bodies, tile, begins, h);
+    if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
     auto x = loadCoasting(tile);
     coast(x);
     storeMoved(tile, goes_on, x);
   }
   const auto rotates = spins & !goes_on;
-  if (any(rotates)) rotateSpins(at, bodies, tile, rotates, h);
+  if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
 }
 
 template <class Place>
