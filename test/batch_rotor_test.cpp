@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "generic.hpp"
-#include "integrators/batch/rotor.hpp"
+#include "integrators/batch/coasting.hpp"
 #include "integrators/exact_rotation.hpp"
 #include "reference/flight.hpp"
 
@@ -145,7 +145,11 @@ rigid_body_sim::FreeRotation coasted(const Vector3d& m_B, const Vector3d& I, dou
   const Vector<double> moments = toBatch(I);
   const Quaternion<double> q_WB = {0, 0, 0, 1};
   Coasting<double> coasting = coastingOf(q_WB, toBatch(m_B), moments, inverseMoments(moments), h);
-  for (int i = 0; i < steps; ++i) coast(coasting);
+  for (int i = 0; i < steps; ++i) {
+    const Phase<double> next = nextPhase(coasting.phase, coasting.of_step, coasting.kc2);
+    coasting.psi = nextPsi(coasting, coasting.phase, next);
+    coasting.phase = next;
+  }
   return {fromBatch(attitudeOf(coasting)), fromBatch(bodyMomentumOf(coasting))};
 }
 

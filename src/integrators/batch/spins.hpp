@@ -1,7 +1,7 @@
 #pragma once
 
+#include "integrators/batch/coasting.hpp"
 #include "integrators/batch/drift.hpp"
-#include "integrators/batch/rotor.hpp"
 #include "integrators/batch/tiles.hpp"
 
 // Kicks and exact free flight, as in exact.cpp, with what it remembers of each body in tiles.
@@ -35,11 +35,20 @@ enum CoastingNumber {
 static_assert(kCoastEnd == kSpinNumbers);
 
 template <class Tile>
+RBS_INLINE Jacobi<typename Tile::S> loadOfStep(const Tile& tile) {
+  return {tile.load(kCoastStep), tile.load(kCoastStep + 1), tile.load(kCoastStep + 2)};
+}
+template <class Tile>
+RBS_INLINE Phase<typename Tile::S> loadPhase(const Tile& tile) {
+  return {tile.load(kCoastPhase), tile.load(kCoastPhase + 1), tile.load(kCoastPhase + 2)};
+}
+
+template <class Tile>
 RBS_INLINE auto loadCoasting(const Tile& tile) {
   Coasting<typename Tile::S> x;
   x.q_WE = tile.loadQuaternion(kCoastQ);
   x.turn = {tile.load(kCoastTurn), tile.load(kCoastTurn + 1)};
-  x.of_step = {tile.load(kCoastStep), tile.load(kCoastStep + 1), tile.load(kCoastStep + 2)};
+  x.of_step = loadOfStep(tile);
   x.kc2 = tile.load(kCoastKc2);
   x.num = tile.load(kCoastNum);
   x.den = tile.load(kCoastDen);
@@ -47,9 +56,7 @@ RBS_INLINE auto loadCoasting(const Tile& tile) {
   x.B_2 = tile.load(kCoastB2);
   x.B_d = tile.load(kCoastBd);
   x.G = tile.load(kCoastG);
-  x.s = tile.load(kCoastPhase);
-  x.c = tile.load(kCoastPhase + 1);
-  x.d = tile.load(kCoastPhase + 2);
+  x.phase = loadPhase(tile);
   x.psi = {tile.load(kCoastPsi), tile.load(kCoastPsi + 1)};
   return x;
 }
@@ -62,9 +69,9 @@ RBS_INLINE void storeWhere(const Tile& tile, M mask, int number, const S& x) {
 
 template <class Tile, class M, class S>
 RBS_INLINE void storeMoved(const Tile& tile, M mask, const Coasting<S>& x) {
-  storeWhere(tile, mask, kCoastPhase, x.s);
-  storeWhere(tile, mask, kCoastPhase + 1, x.c);
-  storeWhere(tile, mask, kCoastPhase + 2, x.d);
+  storeWhere(tile, mask, kCoastPhase, x.phase.s);
+  storeWhere(tile, mask, kCoastPhase + 1, x.phase.c);
+  storeWhere(tile, mask, kCoastPhase + 2, x.phase.d);
   storeWhere(tile, mask, kCoastPsi, x.psi.cos);
   storeWhere(tile, mask, kCoastPsi + 1, x.psi.sin);
 }
@@ -232,23 +239,62 @@ template <class Place, class M>
   storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
 }
 
-/// All but the attitudes of those that coast.
+/// How many bodies go through the parts of a drift together. Parts, as the processor looks only so
+/// far ahead: of a whole drift it would see one pack at a time, and wait for each root in it.
+constexpr std::ptrdiff_t kTogether = 32;
+
+/// Phases of bodies that are together in a part.
+class Phases {
+ public:
+  explicit Phases(std::ptrdiff_t first) : first_(first) {}
+
+  template <class Place, class S>
+  RBS_INLINE void store(const Place& at, const Phase<S>& x) {
+    at.storeTo(s_ + (at.begin - first_), x.s);
+    at.storeTo(c_ + (at.begin - first_), x.c);
+    at.storeTo(d_ + (at.begin - first_), x.d);
+  }
+  template <class Place>
+  RBS_INLINE Phase<typename Place::Number> load(const Place& at) const {
+    const std::ptrdiff_t i = at.begin - first_;
+    return {at.loadFrom(s_ + i), at.loadFrom(c_ + i), at.loadFrom(d_ + i)};
+  }
+
+ private:
+  std::ptrdiff_t first_;
+  double s_[kTogether], c_[kTogether], d_[kTogether];
+};
+
+/// First part: bodies that do not coast, and the next phase of those that do.
 template <class Place>
-RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
+RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h,
+                          Phases& next) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const auto spins = !isZero(tile.loadVector(kSpinL));
   const auto goes_on = spins & (tile.load(kSpinDrift) == h);
   if (any(goes_on)) {
     const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
     if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
-    auto x = loadCoasting(tile);
-    coast(x);
-    storeMoved(tile, goes_on, x);
+    next.store(at, nextPhase(loadPhase(tile), loadOfStep(tile), tile.load(kCoastKc2)));
   }
   const auto rotates = spins & !goes_on;
   if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
 }
 
+/// Second part: how far they turn.
+template <class Place>
+RBS_INLINE void turnCoasting(const Place& at, double* tiles, const Phases& next) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto coasts = tile.load(kSpinIsCoasting) == 1;
+  if (!any(coasts)) return;
+  auto x = loadCoasting(tile);
+  const auto phase = next.load(at);
+  x.psi = nextPsi(x, x.phase, phase);
+  x.phase = phase;
+  storeMoved(tile, coasts, x);
+}
+
+/// Third part: their attitudes.
 template <class Place>
 RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies, double* tiles) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
@@ -259,18 +305,16 @@ RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies,
   storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
 }
 
-/// How many bodies go through the parts of a drift together. Parts, as the processor looks only so
-/// far ahead: of a whole drift it would see one pack at a time, and wait for each root in it.
-constexpr std::ptrdiff_t kTogether = 32;
-
 template <class S>
 void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
   const BodyColumns bodies = of;
   for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogether) {
     const std::ptrdiff_t end = i + kTogether < range.end ? i + kTogether : range.end;
+    Phases next(i);
     driftPositions<S>(bodies, h, {i, end});
-    forPacks<S>(i, end, [=](const auto& at) { moveSpins(at, bodies, tiles, h); });
-    forPacks<S>(i, end, [=](const auto& at) { setCoastingAttitudes(at, bodies, tiles); });
+    forPacks<S>(i, end, [&](const auto& at) { moveSpins(at, bodies, tiles, h, next); });
+    forPacks<S>(i, end, [&](const auto& at) { turnCoasting(at, tiles, next); });
+    forPacks<S>(i, end, [&](const auto& at) { setCoastingAttitudes(at, bodies, tiles); });
   }
 }
 
