@@ -42,8 +42,8 @@ RBS_INLINE Quaternion<S> aligned(const Quaternion<S>& q_WB, const Vector<S>& m_B
   const Vector<S> axis = cross(now, wanted);
   const Quaternion<S> turned = Quaternion<S>{axis.x, axis.y, axis.z, size + cosine} * q_WB;
   const S length = root(squaredNorm(turned));
-  const auto turns =
-      (largest(L_W) > 0.1 * largest(before)) & !isZero(m_B) & (cosine > 0.9999 * size);
+  const auto is_still = isZero(m_B);
+  const auto turns = (largest(L_W) > 0.1 * largest(before)) & (cosine > 0.9999 * size) & !is_still;
   return select(turns, scaled(1 / length, turned), q_WB);
 }
 
