@@ -73,45 +73,60 @@ enum Rk4Number {
 };
 static_assert(kRk4End == kRk4Numbers);
 
-/// What a stage finds.
-template <class S>
-struct Stage {
-  Vector<S> f_W, t_W, w_B, m_rate_B;
-};
-
-/// Adds the stage, which is not the last, to the sums.
-template <int stage, class Tile, class S>
-RBS_INLINE void addUp(const Tile& tile, const Stage<S>& k) {
-  const auto add = [&](int number, const Vector<S>& value) {
-    if constexpr (stage == 0)
-      tile.storeVector(number, value);
-    else
-      tile.storeVector(number, tile.loadVector(number) + 2 * value);
-  };
-  add(kRates, k.w_B);
-  add(kMomentumRates, k.m_rate_B);
-  add(kTorques, k.t_W);
-  add(kForces, k.f_W);
-  tile.storeVector(kForcesOfPath, stage == 0 ? k.f_W : tile.loadVector(kForcesOfPath) + k.f_W);
-}
-
 /// What the effects at a stage look at.
 enum class EffectsSee { kPose, kVelocityToo };
 
-/// The state at which the effects of the stage after `stage` are evaluated.
+/// Adds a stage that is not the last to a sum.
+template <int stage, class Tile, class S>
+RBS_INLINE void addUp(const Tile& tile, int number, const Vector<S>& value) {
+  if constexpr (stage == 0)
+    tile.storeVector(number, value);
+  else
+    tile.storeVector(number, tile.loadVector(number) + 2 * value);
+}
+
+/// Positions and linear momenta: from the forces at stage `stage` to the next one, or to the end.
+template <int stage, class Place>
+RBS_INLINE void rk4PathAt(const Place& at, const BodyColumns& bodies, const BodyColumns& stages,
+                          const WrenchColumns& wrenches, double* tiles, double h) {
+  const auto tile = inTile<kRk4Numbers>(at, tiles);
+  const std::ptrdiff_t n = bodies.stride, ns = stages.stride;
+  const auto f_W = loadVector(at, wrenches.f_W, wrenches.stride);
+  const auto P0 = loadVector(at, bodies.P_WB, n), p0 = loadVector(at, bodies.p_WBcm, n);
+  if constexpr (stage == 0) tile.store(kInverseMass, 1 / at.load(bodies.mass));
+  if constexpr (stage == 3) {
+    const double sixth = h / 6;
+    storeVector(at, bodies.p_WBcm, n,
+                p0 + (h * tile.load(kInverseMass)) * (P0 + sixth * tile.loadVector(kForcesOfPath)));
+    storeVector(at, bodies.P_WB, n, P0 + sixth * (tile.loadVector(kForces) + f_W));
+  } else {
+    const double ah = stage == 2 ? h : 0.5 * h;
+    const auto P = stage == 0 ? P0 : loadVector(at, stages.P_WB, ns);
+    storeVector(at, stages.p_WBcm, ns, p0 + (ah * tile.load(kInverseMass)) * P);
+    storeVector(at, stages.P_WB, ns, P0 + ah * f_W);
+    addUp<stage>(tile, kForces, f_W);
+    tile.storeVector(kForcesOfPath, stage == 0 ? f_W : tile.loadVector(kForcesOfPath) + f_W);
+  }
+}
+
+/// What a stage finds of the rotation.
+template <class S>
+struct Stage {
+  Vector<S> t_W, w_B, m_rate_B;
+};
+
+/// The rotation at which the effects of the stage after `stage` are evaluated.
 template <EffectsSee sight, int stage, class Place, class Tile, class S>
 RBS_INLINE void beginNext(const Place& at, const BodyColumns& bodies, const BodyColumns& stages,
                           const Tile& tile, const Stage<S>& k, const Vector<S>& m0_B, double h) {
-  const std::ptrdiff_t n = bodies.stride, ns = stages.stride;
+  const std::ptrdiff_t ns = stages.stride;
   const double ah = stage == 2 ? h : 0.5 * h;
-  const auto P0 = loadVector(at, bodies.P_WB, n);
-  const auto P = stage == 0 ? P0 : loadVector(at, stages.P_WB, ns);
-  storeVector(at, stages.p_WBcm, ns,
-              loadVector(at, bodies.p_WBcm, n) + (ah * tile.load(kInverseMass)) * P);
-  storeVector(at, stages.P_WB, ns, P0 + ah * k.f_W);
+  addUp<stage>(tile, kRates, k.w_B);
+  addUp<stage>(tile, kMomentumRates, k.m_rate_B);
+  addUp<stage>(tile, kTorques, k.t_W);
   Vector<S> turn = ah * k.w_B;
   if constexpr (stage == 1) turn = turn + (h * h / 8) * cross(tile.loadVector(kStartRate), k.w_B);
-  const Quaternion<S> q_WB = loadQuaternion(at, bodies.q_WB, n) * rotationExp(turn);
+  const Quaternion<S> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride) * rotationExp(turn);
   const Vector<S> m_B = m0_B + ah * k.m_rate_B;
   tile.storeVector(kStageMomentum, m_B);
   storeQuaternion(at, stages.q_WB, ns, q_WB);
@@ -124,11 +139,6 @@ RBS_INLINE void endStep(const Place& at, const BodyColumns& bodies, const Tile& 
                         const Stage<S>& k, const Vector<S>& m0_B, double h) {
   const std::ptrdiff_t n = bodies.stride;
   const double sixth = h / 6;
-  const auto P0 = loadVector(at, bodies.P_WB, n);
-  storeVector(at, bodies.p_WBcm, n,
-              loadVector(at, bodies.p_WBcm, n) +
-                  (h * tile.load(kInverseMass)) * (P0 + sixth * tile.loadVector(kForcesOfPath)));
-  storeVector(at, bodies.P_WB, n, P0 + sixth * (tile.loadVector(kForces) + k.f_W));
   const Vector<S> turn = sixth * (tile.loadVector(kRates) + k.w_B) +
                          (h * h / 12) * cross(tile.loadVector(kStartRate), k.w_B);
   const Vector<S> m_B = m0_B + sixth * (tile.loadVector(kMomentumRates) + k.m_rate_B);
@@ -140,14 +150,13 @@ RBS_INLINE void endStep(const Place& at, const BodyColumns& bodies, const Tile& 
   storeVector(at, bodies.L_WBcm_W, n, after.L_W);
 }
 
-/// From the wrenches at the state of stage `stage` to the state of the next, or of the step's end.
+/// The rotation, as rk4PathAt().
 template <bool gyroscopic, EffectsSee sight, int stage, class Place>
-RBS_INLINE void rk4StageAt(const Place& at, const BodyColumns& bodies, const BodyColumns& stages,
-                           const WrenchColumns& wrenches, double* tiles, double h) {
+RBS_INLINE void rk4TurnAt(const Place& at, const BodyColumns& bodies, const BodyColumns& stages,
+                          const WrenchColumns& wrenches, double* tiles, double h) {
   using S = typename Place::Number;
-  const InTile<Place, kRk4Numbers> tile(at, tiles);
+  const auto tile = inTile<kRk4Numbers>(at, tiles);
   Stage<S> k;
-  k.f_W = loadVector(at, wrenches.f_W, wrenches.stride);
   k.t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
   Vector<S> m0_B, m_B, a;
   Quaternion<S> q_WB;
@@ -156,7 +165,6 @@ RBS_INLINE void rk4StageAt(const Place& at, const BodyColumns& bodies, const Bod
     m0_B = m_B = rotatedBack(q_WB, loadVector(at, bodies.L_WBcm_W, bodies.stride));
     const auto I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
     a = {1 / I.x, 1 / I.y, 1 / I.z};
-    tile.store(kInverseMass, 1 / at.load(bodies.mass));
     tile.storeVector(kInverseI, a);
     tile.storeVector(kStartMomentum, m0_B);
   } else {
@@ -168,22 +176,28 @@ RBS_INLINE void rk4StageAt(const Place& at, const BodyColumns& bodies, const Bod
   k.w_B = product(a, m_B);
   k.m_rate_B = momentumRate<gyroscopic>(m_B, k.w_B, rotatedBack(q_WB, k.t_W));
   if constexpr (stage == 0) tile.storeVector(kStartRate, k.w_B);
-  if constexpr (stage < 3) {
-    addUp<stage>(tile, k);
+  if constexpr (stage < 3)
     beginNext<sight, stage>(at, bodies, stages, tile, k, m0_B, h);
-  } else {
+  else
     endStep<gyroscopic>(at, bodies, tile, k, m0_B, h);
-  }
 }
+
+/// How many bodies go through the two parts of a stage together, see kTogether.
+constexpr std::ptrdiff_t kTogetherInStage = 32;
 
 template <class S, bool gyroscopic, EffectsSee sight, int stage>
 void rk4StageOf(const BodyColumns& of, const BodyColumns& stages_of, const WrenchColumns& by,
                 double* tiles, double h, Range range) {
   const BodyColumns bodies = of, stages = stages_of;
   const WrenchColumns wrenches = by;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
-    rk4StageAt<gyroscopic, sight, stage>(at, bodies, stages, wrenches, tiles, h);
-  });
+  for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogetherInStage) {
+    const std::ptrdiff_t end = i + kTogetherInStage < range.end ? i + kTogetherInStage : range.end;
+    forPacks<S>(i, end,
+                [=](const auto& at) { rk4PathAt<stage>(at, bodies, stages, wrenches, tiles, h); });
+    forPacks<S>(i, end, [=](const auto& at) {
+      rk4TurnAt<gyroscopic, sight, stage>(at, bodies, stages, wrenches, tiles, h);
+    });
+  }
 }
 
 template <class S, bool gyroscopic, EffectsSee sight>
