@@ -67,7 +67,7 @@ class BatchSteps : public testing::Test {
   const Range all = {0, 19};
 };
 
-// Both sides round differently: a rounding a step in each of some ten components, which the motion
+// Both sides round differently, a rounding a step in each of some ten components, which the motion
 // spreads a little. Measured: 1e-14.
 constexpr double kRounding = 1e-13;
 
