@@ -136,11 +136,11 @@ std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects
     const double longest = std::min(row.max_swing / stiff.oscillation, row.max_decay / stiff.decay);
     if (!(tick_s > longest * method.substeps)) continue;
     std::ostringstream why;
-    why << "'" << effect->name() << "' makes it ";
-    if (stiff.oscillation > 0) why << "swing at " << stiff.oscillation << " rad/s";
+    why << "'" << effect->name() << "' is too stiff: it ";
+    if (stiff.oscillation > 0) why << "swings at " << stiff.oscillation << " rad/s";
     if (stiff.oscillation > 0 && stiff.decay > 0) why << " and ";
-    if (stiff.decay > 0) why << "slow down at " << stiff.decay << " 1/s";
-    why << "; the largest step_s that is stable with '" << toText(method) << "' is "
+    if (stiff.decay > 0) why << "slows down at " << stiff.decay << " 1/s";
+    why << "; with '" << toText(method) << "' the largest stable step is "
         << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest)
         << " substeps";
     if (effect->flowOrder() > 0) why << ", or exact, which bears any step";

@@ -1,0 +1,161 @@
+#pragma once
+
+#include "integrators/batch/rotor.hpp"
+
+namespace rigid_body_sim::batch {
+namespace {
+
+/// sn, cn and dn of a coasting body's phase.
+template <class S>
+struct Phase {
+  S s, c, d;
+};
+
+/// As rigid_body_sim::Coasting, in the orbit's axes. A body that turns about a fixed axis is one
+/// whose phase stands still.
+template <class S>
+struct Coasting {
+  // Constants.
+  Quaternion<S> q_WE;  ///< attitude without psi and with the momentum along d
+  HalfAngle<S> turn;   ///< a step's about E, but for the angle between the momenta
+  Jacobi<S> of_step;   ///< sn = 0: fixed axis
+  S kc2, num, den;
+  S root_dd;  ///< negative around axis 1
+  S B_2;      ///< largest size of m2, see momentumOf()
+  S B_d;      ///< md = B_d dn of the phase
+  S G;
+  // What moves.
+  Phase<S> phase;
+  HalfAngle<S> psi;  ///< of a length near one, but not one: that would take a root
+};
+
+/// The momentum along c, 2 and d, for G = 1.
+template <class S>
+struct OrbitMomentum {
+  S c, two, d;
+};
+
+template <class S>
+RBS_INLINE OrbitMomentum<S> momentumOf(const Coasting<S>& x) {
+  const S sign_d = withSign(S(1.0), x.B_d);
+  return {x.B_2 * magnitude(x.root_dd) * x.phase.c, sign_d * (x.B_2 * x.phase.s),
+          x.B_d * x.phase.d};
+}
+template <class S>
+RBS_INLINE Vector<S> bodyMomentumOf(const Coasting<S>& x) {
+  const OrbitMomentum<S> m = momentumOf(x);
+  return x.G * momentumFromOrbit(x.root_dd < 0, m.c, m.two, m.d);
+}
+
+/// Puts what a body that turns about a fixed axis needs where `is_fixed`.
+template <class S>
+RBS_INLINE void setFixedAxis(typename MaskOf<S>::Type is_fixed, const Orbit<S>& o, const S& angle,
+                             Coasting<S>& x) {
+  const S one(1.0), none(0.0);
+  x.of_step = {select(is_fixed, none, x.of_step.sn), select(is_fixed, one, x.of_step.cn),
+               select(is_fixed, one, x.of_step.dn)};
+  x.kc2 = select(is_fixed, one, x.kc2);
+  x.num = select(is_fixed, none, x.num);
+  x.den = select(is_fixed, none, x.den);
+  x.root_dd = select(is_fixed, o.about, x.root_dd);
+  const S across = root(o.mc * o.mc + o.m2 * o.m2);
+  const auto is_along = across == 0;
+  const S safe = select(is_along, one, across);
+  const S sign_d = withSign(one, o.md);
+  x.B_2 = select(is_fixed, across, x.B_2);
+  x.B_d = select(is_fixed, o.md, x.B_d);
+  x.phase.s = select(is_fixed, sign_d * o.m2 / safe, x.phase.s);
+  x.phase.c = select(is_fixed, select(is_along, one, o.mc / safe), x.phase.c);
+  const HalfAngle<S> turn = halfAngle(o.about * angle);
+  x.turn = {select(is_fixed, turn.cos, x.turn.cos), select(is_fixed, turn.sin, x.turn.sin)};
+}
+
+/// @param m_B not zero
+template <class S>
+RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_B,
+                                  const Vector<S>& I, const InverseMoments<S>& a, double h) {
+  const S one(1.0);
+  const Direction<S> momentum = directionOf(m_B);
+  const Orbit<S> o = orbitOf(momentum.m, a);
+  const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
+  const S sign_d = withSign(one, o.md);
+  Coasting<S> x;
+  x.turn = normalized(slowTurn(o, a, momentum.G, h, step));
+  x.of_step = step.f;
+  x.kc2 = o.kc2;
+  x.num = -(o.dc / (o.lambda * o.dd) * step.f.sn);
+  x.den = o.dc / o.dd;
+  const S root_dd = root(o.dd);
+  x.root_dd = o.about * root_dd;
+  x.B_2 = root(o.R) / root_dd;
+  x.B_d = sign_d * root(o.W);
+  x.G = momentum.G;
+  x.phase.s = sign_d * o.m2 / x.B_2;
+  x.phase.c = o.mc / (x.B_2 * root_dd);
+  if (any(o.is_fixed_axis)) {
+    const Vector<S> w = quotient(momentum.m, I);
+    setFixedAxis(o.is_fixed_axis, o, h * (momentum.G * dot(momentum.m, w)), x);
+  }
+  x.turn.sin = sign_d * x.turn.sin;
+  const S scale = 1 / root(x.phase.s * x.phase.s + x.phase.c * x.phase.c);
+  x.phase.s = scale * x.phase.s;
+  x.phase.c = scale * x.phase.c;
+  x.phase.d = root(x.phase.c * x.phase.c + x.kc2 * x.phase.s * x.phase.s);
+  x.psi = {one, S(0.0)};
+  // The inverse of the shortest rotation that takes the momentum to axis d.
+  const OrbitMomentum<S> m = momentumOf(x);
+  const S w = 1 + magnitude(m.d);
+  const Quaternion<S> back = {-(sign_d * m.two), sign_d * m.c, S(0.0), w};
+  const Quaternion<S> q_WE = q_WB * fromOrbit(o.is_around_1, o.about, back);
+  x.q_WE = scaled(1 / root(squaredNorm(q_WE)), q_WE);
+  return x;
+}
+
+/// The phase a step on.
+template <class S>
+RBS_INLINE Phase<S> nextPhase(const Phase<S>& x, const Jacobi<S>& f, const S& kc2) {
+  // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
+  const S k2cn2 = (1 - kc2) * (f.cn * f.cn);
+  const S i = 1 / (x.d * x.d + k2cn2 * (x.s * x.s));
+  S s = (x.s * (f.cn * f.dn) + f.sn * (x.c * x.d)) * i;
+  S c = (x.c * f.cn - f.sn * f.dn * (x.s * x.d)) * i;
+  // Back to s^2 + c^2 = 1 by a Newton step.
+  const S unit = 1.5 - 0.5 * (s * s + c * c);
+  s = unit * s;
+  c = unit * c;
+  return {s, c, root(c * c + kc2 * (s * s))};
+}
+
+/// What the body has turned about E, when its phase goes from `x` to `next`.
+template <class S>
+RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const Phase<S>& next) {
+  const S sn = of.of_step.sn;
+  const S dd = of.root_dd * of.root_dd;
+  const S num = of.num * x.s * next.s;
+  const S den = 1 + of.den * (next.s * next.s - sn * x.s * next.c * next.d);
+  const S cross = magnitude(of.root_dd) * (x.c * next.s - x.s * next.c);
+  const S dot = dd * (x.c * next.c) + x.s * next.s;
+  HalfAngle<S> between = rootDirection(den * dot + num * cross, num * dot - den * cross);
+  const auto stays = sn == 0;  // the phase's roundings are no turn
+  between = {select(stays, S(1.0), between.cos),
+             select(stays, S(0.0), withSign(S(1.0), of.B_d) * between.sin)};
+  const HalfAngle<S> psi = of.psi * of.turn * between;
+  const S scale = inversePower(magnitude(psi.cos) + magnitude(psi.sin));
+  return {scale * psi.cos, scale * psi.sin};
+}
+
+/// exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
+template <class S>
+RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x) {
+  const S r = magnitude(x.root_dd);
+  const S w = 1 + magnitude(x.B_d) * x.phase.d;
+  const S mx = withSign(x.B_2 * r, x.B_d) * x.phase.c, my = x.B_2 * x.phase.s;
+  const S C = x.psi.cos, D = x.psi.sin;
+  const Quaternion<S> turn = fromOrbit<S>(x.root_dd < 0, withSign(S(1.0), x.root_dd),
+                                          {C * my + D * mx, D * my - C * mx, w * D, w * C});
+  const Quaternion<S> q_WB = x.q_WE * turn;
+  return scaled(1 / root(squaredNorm(q_WB)), q_WB);
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::batch

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "integrators/batch/orbit.hpp"
+
+namespace rigid_body_sim::batch {
+namespace {
+
+/// What a torque-free body does in some time, see rigid_body_sim::FreeRotation.
+template <class S>
+struct FreeRotation {
+  Quaternion<S> q_BBnext;
+  Vector<S> m_B;
+};
+
+/// Half of the angle by which a body turns about its momentum, as seen along axis d and in orbit's
+/// axes, but for its length and the angle between the momenta.
+template <class S>
+RBS_INLINE HalfAngle<S> slowTurn(const Orbit<S>& o, const InverseMoments<S>& a, const S& G,
+                                 double h, const OrbitStep<S>& step) {
+  return halfAngle(o.about * (h * (a.a2 * G)) + step.linear) * step.other;
+}
+
+/// As exactRotation() beside this folder; `m_B` is not zero.
+template <class S>
+RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& I,
+                                         const InverseMoments<S>& a, double h) {
+  const Direction<S> momentum = directionOf(m_B);
+  const Orbit<S> o = orbitOf(momentum.m, a);
+  const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
+  const Jacobi<S>& f = step.f;
+  const S s = f.sn / o.lambda;
+  const S q = o.W / (o.md * o.md + o.m2 * o.m2 * o.dc * (f.cn * f.cn));
+  const S md = (o.md * f.dn - o.dc * s * o.mc * o.m2 * f.cn) * q;
+  const S mc = (o.mc * f.cn - o.dd * s * o.m2 * o.md * f.dn) * q;
+  const S m2 = (o.m2 * f.cn * f.dn + s * o.mc * o.md) * q;
+
+  // The angle between the momenta as seen along d, as the argument of a complex number.
+  const S one(1.0);
+  const S sign_d = withSign(one, o.md);
+  const S num = -(s * o.dc * o.m2 * m2);
+  const S den = o.R + o.dc * m2 * m2 - o.dc * s * o.m2 * mc * md;
+  const S cross = sign_d * (o.mc * m2 - o.m2 * mc);
+  const S dot = o.mc * mc + o.m2 * m2;
+  HalfAngle<S> spin = slowTurn(o, a, momentum.G, h, step) *
+                      rootDirection(den * dot + num * cross, num * dot - den * cross);
+  spin.sin = sign_d * spin.sin;
+
+  // P^-1 (spin about d) P', with P the shortest rotation of the momentum before to the axis d, P'
+  // of that after; |P|^2 = 2 (1 + |md|).
+  const S before = 1 + magnitude(o.md), after = 1 + magnitude(md);
+  const S scale = 1 / root(4 * before * after * (spin.cos * spin.cos + spin.sin * spin.sin));
+  const S C = scale * spin.cos, D = scale * spin.sin;
+  const S x = sign_d * mc, y = sign_d * m2;
+  const Quaternion<S> first = {-(sign_d * o.m2), sign_d * o.mc, S(0.0), before};
+  const Quaternion<S> then = {C * y + D * x, D * y - C * x, D * after, C * after};
+  const auto turns = !o.is_fixed_axis;
+  const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, first * then);
+  const Vector<S> next = momentum.G * momentumFromOrbit(o.is_around_1, mc, m2, md);
+  if (all(turns)) return {turn, next};
+  const Quaternion<S> about_axis = rotationExp(h * quotient(m_B, I));
+  return {select(turns, turn, about_axis), select(turns, next, m_B)};
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::batch

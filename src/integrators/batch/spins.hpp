@@ -1,0 +1,322 @@
+#pragma once
+
+#include "integrators/batch/coasting.hpp"
+#include "integrators/batch/drift.hpp"
+#include "integrators/batch/tiles.hpp"
+
+// Kicks and exact free flight, as in exact.cpp, with what it remembers of each body in tiles.
+namespace rigid_body_sim::batch {
+namespace {
+
+enum SpinNumber {
+  kSpinQ = 0,  // attitude and angular momentum that the method left behind
+  kSpinL = 4,
+  kSpinM = 7,            // m_B; not up to date while coasting
+  kSpinInverse = 10,     // InverseMoments
+  kSpinDrift = 14,       // [s] the latest drift; 0 if something turned the momentum since
+  kSpinIsCoasting = 15,  // 1 or 0
+  kSpinEnd = 16
+};
+enum CoastingNumber {
+  kCoastQ = kSpinEnd,
+  kCoastTurn = kCoastQ + 4,
+  kCoastStep = kCoastTurn + 2,
+  kCoastKc2 = kCoastStep + 3,
+  kCoastNum,
+  kCoastDen,
+  kCoastRoot,
+  kCoastB2,
+  kCoastBd,
+  kCoastG,
+  kCoastPhase,
+  kCoastPsi = kCoastPhase + 3,
+  kCoastEnd = kCoastPsi + 2
+};
+static_assert(kCoastEnd == kSpinNumbers);
+
+template <class Tile>
+RBS_INLINE Jacobi<typename Tile::S> loadOfStep(const Tile& tile) {
+  return {tile.load(kCoastStep), tile.load(kCoastStep + 1), tile.load(kCoastStep + 2)};
+}
+template <class Tile>
+RBS_INLINE Phase<typename Tile::S> loadPhase(const Tile& tile) {
+  return {tile.load(kCoastPhase), tile.load(kCoastPhase + 1), tile.load(kCoastPhase + 2)};
+}
+
+template <class Tile>
+RBS_INLINE auto loadCoasting(const Tile& tile) {
+  Coasting<typename Tile::S> x;
+  x.q_WE = tile.loadQuaternion(kCoastQ);
+  x.turn = {tile.load(kCoastTurn), tile.load(kCoastTurn + 1)};
+  x.of_step = loadOfStep(tile);
+  x.kc2 = tile.load(kCoastKc2);
+  x.num = tile.load(kCoastNum);
+  x.den = tile.load(kCoastDen);
+  x.root_dd = tile.load(kCoastRoot);
+  x.B_2 = tile.load(kCoastB2);
+  x.B_d = tile.load(kCoastBd);
+  x.G = tile.load(kCoastG);
+  x.phase = loadPhase(tile);
+  x.psi = {tile.load(kCoastPsi), tile.load(kCoastPsi + 1)};
+  return x;
+}
+
+/// Stores where `mask`.
+template <class Tile, class M, class S>
+RBS_INLINE void storeWhere(const Tile& tile, M mask, int number, const S& x) {
+  tile.store(number, select(mask, x, tile.load(number)));
+}
+
+template <class Tile, class M, class S>
+RBS_INLINE void storeMoved(const Tile& tile, M mask, const Coasting<S>& x) {
+  storeWhere(tile, mask, kCoastPhase, x.phase.s);
+  storeWhere(tile, mask, kCoastPhase + 1, x.phase.c);
+  storeWhere(tile, mask, kCoastPhase + 2, x.phase.d);
+  storeWhere(tile, mask, kCoastPsi, x.psi.cos);
+  storeWhere(tile, mask, kCoastPsi + 1, x.psi.sin);
+}
+
+template <class Tile, class M, class S>
+RBS_INLINE void storeCoasting(const Tile& tile, M mask, const Coasting<S>& x) {
+  const S constants[] = {x.q_WE.x,     x.q_WE.y,     x.q_WE.z,     x.q_WE.w, x.turn.cos, x.turn.sin,
+                         x.of_step.sn, x.of_step.cn, x.of_step.dn, x.kc2,    x.num,      x.den,
+                         x.root_dd,    x.B_2,        x.B_d,        x.G};
+  for (int i = 0; i < kCoastPhase - kCoastQ; ++i) storeWhere(tile, mask, kCoastQ + i, constants[i]);
+  storeMoved(tile, mask, x);
+}
+
+template <class S>
+RBS_INLINE double lane(const S& x, int i) {
+  if constexpr (kWidth<S> == 1)
+    return x;
+  else
+    return x.lanes[i];
+}
+template <class S>
+RBS_INLINE void setLane(S& x, int i, double value) {
+  if constexpr (kWidth<S> == 1)
+    x = value;
+  else
+    x.lanes[i] = value;
+}
+
+/// m = R^T L anew, where `mask`.
+template <class S>
+[[gnu::cold, gnu::noinline]] Vector<S> momentumAnew(typename MaskOf<S>::Type mask,
+                                                    const Quaternion<S>& q_WB, const Vector<S>& L_W,
+                                                    const Vector<S>& m_B) {
+  Vector<S> all = m_B;
+  for (int i = 0; i < kWidth<S>; ++i) {
+    if (!(bits(mask) >> i & 1)) continue;
+    const double q[] = {lane(q_WB.x, i), lane(q_WB.y, i), lane(q_WB.z, i), lane(q_WB.w, i)};
+    const double L[] = {lane(L_W.x, i), lane(L_W.y, i), lane(L_W.z, i)};
+    double m[3];
+    momentumInBody(q, L, m);
+    setLane(all.x, i, m[0]);
+    setLane(all.y, i, m[1]);
+    setLane(all.z, i, m[2]);
+  }
+  return all;
+}
+
+/// Takes up the bodies that somebody else has moved.
+template <class S>
+void recallSpins(const BodyColumns& of, double* tiles, Range range) {
+  const BodyColumns bodies = of;
+  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+    using T = NumberOf<decltype(at)>;
+    const auto tile = inTile<kSpinNumbers>(at, tiles);
+    const Quaternion<T> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+    const Vector<T> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
+    const Quaternion<T> old_q = tile.loadQuaternion(kSpinQ);
+    const Vector<T> old_L = tile.loadVector(kSpinL);
+    const auto is_known = ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) &
+                          ((old_q.z == q_WB.z) & (old_q.w == q_WB.w)) &
+                          ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
+    if (all(is_known)) return;
+    const auto is_new = !is_known;
+    const InverseMoments<T> a = inverseMoments(loadVector(at, bodies.I_BBcm_B, bodies.stride));
+    const T none(0.0);
+    tile.storeQuaternion(kSpinQ, q_WB);
+    tile.storeVector(kSpinL, L_W);
+    tile.storeVector(kSpinM, momentumAnew<T>(is_new, q_WB, L_W, tile.loadVector(kSpinM)));
+    storeWhere(tile, is_new, kSpinInverse, a.a2);
+    storeWhere(tile, is_new, kSpinInverse + 1, a.a13);
+    storeWhere(tile, is_new, kSpinInverse + 2, a.d12);
+    storeWhere(tile, is_new, kSpinInverse + 3, a.d23);
+    storeWhere(tile, is_new, kSpinDrift, none);
+    storeWhere(tile, is_new, kSpinIsCoasting, none);
+  });
+}
+
+/// Ends the coasting of lanes. @returns the momentum of all
+template <class Tile, class M>
+RBS_INLINE auto momentumAfterCoasting(const Tile& tile, M ends) {
+  using S = typename Tile::S;
+  Vector<S> m_B = tile.loadVector(kSpinM);
+  const auto coasted = ends & (tile.load(kSpinIsCoasting) == 1);
+  if (any(coasted)) {
+    m_B = select(coasted, bodyMomentumOf(loadCoasting(tile)), m_B);
+    storeWhere(tile, coasted, kSpinIsCoasting, S(0.0));
+  }
+  return m_B;
+}
+
+template <class S>
+void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, double h,
+               Range range) {
+  const BodyColumns bodies = of;
+  const WrenchColumns wrenches = by;
+  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+    using T = NumberOf<decltype(at)>;
+    kicked(at, bodies.P_WB, bodies.stride, wrenches.f_W, wrenches.stride, h);
+    const Vector<T> t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
+    const auto turns = !isZero(t_W);
+    if (!any(turns)) return;
+    const auto tile = inTile<kSpinNumbers>(at, tiles);
+    const Vector<T> m_B = momentumAfterCoasting(tile, turns);
+    const Vector<T> impulse = h * t_W;
+    const Vector<T> L_W = tile.loadVector(kSpinL);
+    const Vector<T> L_next = select(turns, L_W + impulse, L_W);
+    tile.storeVector(kSpinL, L_next);
+    storeVector(at, bodies.L_WBcm_W, bodies.stride, L_next);
+    const Quaternion<T> q_WB = tile.loadQuaternion(kSpinQ);
+    tile.storeVector(kSpinM, select(turns, m_B + rotatedBack(q_WB, impulse), m_B));
+    storeWhere(tile, turns, kSpinDrift, T(0.0));
+  });
+}
+
+/// See Exact::align() in exact.cpp.
+template <class S>
+RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Quaternion<S>& q_WB,
+                          Vector<S>& m_B) {
+  const Vector<S> now = rotated(q_WB, m_B);
+  const Vector<S> off = now - L_W;
+  const S size2 = dot(L_W, L_W), off2 = dot(off, off);
+  const auto is_off = mask & !(off2 <= 1e-28 * size2);
+  if (!any(is_off)) return;
+  const auto is_lost = off2 > 1e-24 * size2;
+  if (any(is_off & is_lost)) m_B = momentumAnew<S>(is_off & is_lost, q_WB, L_W, m_B);
+  const Vector<S> half = (0.5 / size2) * cross(now, L_W);
+  const Quaternion<S> turned = renormalized(Quaternion<S>{half.x, half.y, half.z, S(1.0)} * q_WB);
+  q_WB = select(is_off & !is_lost, turned, q_WB);
+}
+
+template <class Tile>
+RBS_INLINE InverseMoments<typename Tile::S> loadInverse(const Tile& tile) {
+  return {tile.load(kSpinInverse), tile.load(kSpinInverse + 1), tile.load(kSpinInverse + 2),
+          tile.load(kSpinInverse + 3)};
+}
+
+/// Turns lanes that do not coast.
+template <class Place, class M>
+[[gnu::noinline]] void rotateSpins(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const Vector<S> m_B = momentumAfterCoasting(tile, mask);
+  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+  const FreeRotation<S> free = exactRotation(m_B, I, loadInverse(tile), h);
+  const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
+  Quaternion<S> next = renormalized(q_WB * free.q_BBnext);
+  Vector<S> m_next = free.m_B;
+  alignSpin<S>(mask, tile.loadVector(kSpinL), next, m_next);
+  tile.storeVector(kSpinM, select(mask, m_next, m_B));
+  storeWhere(tile, mask, kSpinDrift, S(h));
+  next = select(mask, next, q_WB);
+  tile.storeQuaternion(kSpinQ, next);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, next);
+}
+
+/// The second equal drift in a row without torque.
+template <class Place, class M>
+[[gnu::noinline]] void beginToCoast(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+  storeCoasting(
+      tile, mask,
+      coastingOf<S>(tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinM), I, loadInverse(tile), h));
+  storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
+}
+
+/// How many bodies go through the parts of a drift together. Parts, as the processor looks only so
+/// far ahead: of a whole drift it would see one pack at a time, and wait for each root in it.
+constexpr std::ptrdiff_t kTogether = 32;
+
+/// Phases of bodies that are together in a part.
+class Phases {
+ public:
+  explicit Phases(std::ptrdiff_t first) : first_(first) {}
+
+  template <class Place, class S>
+  RBS_INLINE void store(const Place& at, const Phase<S>& x) {
+    at.storeTo(s_ + (at.begin - first_), x.s);
+    at.storeTo(c_ + (at.begin - first_), x.c);
+    at.storeTo(d_ + (at.begin - first_), x.d);
+  }
+  template <class Place>
+  RBS_INLINE Phase<typename Place::Number> load(const Place& at) const {
+    const std::ptrdiff_t i = at.begin - first_;
+    return {at.loadFrom(s_ + i), at.loadFrom(c_ + i), at.loadFrom(d_ + i)};
+  }
+
+ private:
+  std::ptrdiff_t first_;
+  double s_[kTogether], c_[kTogether], d_[kTogether];
+};
+
+/// First part: bodies that do not coast, and the next phase of those that do.
+template <class Place>
+RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h,
+                          Phases& next) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto spins = !isZero(tile.loadVector(kSpinL));
+  const auto goes_on = spins & (tile.load(kSpinDrift) == h);
+  if (any(goes_on)) {
+    const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
+    if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
+    next.store(at, nextPhase(loadPhase(tile), loadOfStep(tile), tile.load(kCoastKc2)));
+  }
+  const auto rotates = spins & !goes_on;
+  if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
+}
+
+/// Second part: how far they turn.
+template <class Place>
+RBS_INLINE void turnCoasting(const Place& at, double* tiles, const Phases& next) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto coasts = tile.load(kSpinIsCoasting) == 1;
+  if (!any(coasts)) return;
+  auto x = loadCoasting(tile);
+  const auto phase = next.load(at);
+  x.psi = nextPsi(x, x.phase, phase);
+  x.phase = phase;
+  storeMoved(tile, coasts, x);
+}
+
+/// Third part: their attitudes.
+template <class Place>
+RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies, double* tiles) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto coasts = tile.load(kSpinIsCoasting) == 1;
+  if (!any(coasts)) return;
+  const auto q_WB = select(coasts, attitudeOf(loadCoasting(tile)), tile.loadQuaternion(kSpinQ));
+  tile.storeQuaternion(kSpinQ, q_WB);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
+}
+
+template <class S>
+void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
+  const BodyColumns bodies = of;
+  for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogether) {
+    const std::ptrdiff_t end = i + kTogether < range.end ? i + kTogether : range.end;
+    Phases next(i);
+    driftPositions<S>(bodies, h, {i, end});
+    forPacks<S>(i, end, [&](const auto& at) { moveSpins(at, bodies, tiles, h, next); });
+    forPacks<S>(i, end, [&](const auto& at) { turnCoasting(at, tiles, next); });
+    forPacks<S>(i, end, [&](const auto& at) { setCoastingAttitudes(at, bodies, tiles); });
+  }
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::batch

@@ -1,0 +1,166 @@
+// The batch kernels give the same bits whatever the instruction set, the number of bodies, and
+// their place among them.
+#include <cstdlib>
+#include <functional>
+
+#include "batch_bodies.hpp"
+#include "integrators/batch/kernels.hpp"
+
+namespace rigid_body_sim::batch {
+namespace {
+
+/// Some steps of one kind.
+struct Work {
+  std::string name;
+  std::function<void(const Kernels&, Bodies&, const Pushes&, double h, Range)> steps;
+};
+
+void PrintTo(const Work& work, std::ostream* out) { *out << work.name; }
+
+constexpr int kSteps = 5;
+
+Work repeated(const std::string& name,
+              const std::function<void(const Kernels&, const BodyColumns&, const WrenchColumns&,
+                                       double, Range)>& step) {
+  return {name, [step](const Kernels& k, Bodies& bodies, const Pushes& pushes, double h, Range r) {
+            for (int i = 0; i < kSteps; ++i) step(k, columnsOf(bodies), columnsOf(pushes), h, r);
+          }};
+}
+
+void rk4Steps(Kernels::Rk4Stage stage_of, Bodies& bodies, const Pushes& pushes, double h,
+              Range range) {
+  Bodies stages(bodies.count());
+  std::vector<double> tiles(tileSize(bodies.count(), kRk4Numbers));
+  for (int i = 0; i < kSteps; ++i)
+    for (int stage = 0; stage < 4; ++stage)
+      stage_of(columnsOf(bodies), columnsOf(stages), columnsOf(pushes), tiles.data(), stage, h,
+               range);
+}
+
+/// Kicks now and then, so that bodies go from coasting to kicks and back.
+void spinSteps(const Kernels& k, Bodies& bodies, const Pushes& pushes, double h, Range range) {
+  std::vector<double> tiles(tileSize(bodies.count(), kSpinNumbers));
+  for (int i = 0; i < 12; ++i) {
+    k.recallSpins(columnsOf(bodies), tiles.data(), range);
+    if (i < 2 || i == 8)
+      k.kickSpins(columnsOf(bodies), columnsOf(pushes), tiles.data(), 0.5 * h, range);
+    k.driftSpins(columnsOf(bodies), tiles.data(), i == 10 ? 2 * h : h, range);
+  }
+}
+
+std::vector<Work> works() {
+  return {
+      repeated("Kick", [](auto& k, auto& b, auto& w, double h, Range r) { k.kick(b, w, h, r); }),
+      repeated("Positions",
+               [](auto& k, auto& b, auto&, double h, Range r) { k.driftPositions(b, h, r); }),
+      repeated("ConstantRate", [](auto& k, auto& b, auto&, double h,
+                                  Range r) { k.driftAtConstantRate(b, nullptr, h, r); }),
+      repeated("KickAndConstantRate", [](auto& k, auto& b, auto& w, double h,
+                                         Range r) { k.driftAtConstantRate(b, &w, h, r); }),
+      repeated("Splitting", [](auto& k, auto& b, auto& w, double h,
+                               Range r) { k.driftBySplitting(b, &w, h, r); }),
+      repeated("NoGyroscopicTerm", [](auto& k, auto& b, auto&, double h,
+                                      Range r) { k.driftWithoutGyroscopicTerm(b, h, r); }),
+      repeated("Rk4Free", [](auto& k, auto& b, auto&, double h, Range r) { k.rk4Free(b, h, r); }),
+      repeated("Rk4FreeNoGyroscopicTerm", [](auto& k, auto& b, auto&, double h,
+                                             Range r) { k.rk4FreeWithoutGyroscopicTerm(b, h, r); }),
+      {"Rk4",
+       [](auto& k, auto& b, auto& w, double h, Range r) { rk4Steps(k.rk4Stage, b, w, h, r); }},
+      {"Rk4WithVelocity", [](auto& k, auto& b, auto& w, double h,
+                             Range r) { rk4Steps(k.rk4StageWithVelocity, b, w, h, r); }},
+      {"Rk4NoGyroscopicTerm",
+       [](auto& k, auto& b, auto& w, double h, Range r) {
+         rk4Steps(k.rk4StageWithoutGyroscopicTerm, b, w, h, r);
+       }},
+      {"Spins", spinSteps},
+  };
+}
+
+class BatchKernels : public testing::TestWithParam<Work> {
+ protected:
+  static Bodies after(const Kernels& k, Bodies bodies, const Pushes& pushes, double h = 0.02) {
+    GetParam().steps(k, bodies, pushes, h, {0, bodies.count()});
+    return bodies;
+  }
+};
+
+TEST_P(BatchKernels, GiveTheSameBitsWithEveryInstructionSet) {
+  for (Eigen::Index count = 1; count <= 33; ++count)
+    for (const double h : {0.02, -0.7}) {
+      const Bodies start = someBodies(count, 5 * count);
+      const Pushes pushes = somePushes(count, 5 * count);
+      const Bodies plain = after(availableKernels().front(), start, pushes, h);
+      for (const Kernels& k : availableKernels())
+        ASSERT_TRUE(sameNumbers(after(k, start, pushes, h), plain)) << k.name << " " << count;
+    }
+}
+
+TEST_P(BatchKernels, GiveABodyTheSameBitsAloneAndInACrowd) {
+  constexpr Eigen::Index kCount = 150;
+  for (const Kernels& k : availableKernels()) {
+    const Bodies crowd = after(k, someBodies(kCount), somePushes(kCount));
+    for (Eigen::Index i = 0; i < kCount; ++i) {
+      const Bodies alone = after(k, someBodies(1, i), somePushes(1, i));
+      const BodyState a = alone.state(0), b = crowd.state(i);
+      ASSERT_TRUE(sameNumbers(a.p_WBcm, b.p_WBcm) &&
+                  sameNumbers(a.q_WB.coeffs(), b.q_WB.coeffs()) && sameNumbers(a.P_WB, b.P_WB) &&
+                  sameNumbers(a.L_WBcm_W, b.L_WBcm_W))
+          << k.name << " " << i;
+    }
+  }
+}
+
+TEST_P(BatchKernels, LeaveBodiesOutsideTheRangeAlone) {
+  for (const Kernels& k : availableKernels())
+    for (const Range range : {Range{8, 19}, Range{16, 17}, Range{24, 40}, Range{8, 8}}) {
+      const Bodies start = someBodies(40);
+      const Pushes pushes = somePushes(40);
+      Bodies some = start;
+      GetParam().steps(k, some, pushes, 0.02, range);
+      const Bodies all = after(k, start, pushes);
+      for (Eigen::Index i = 0; i < 40; ++i) {
+        const BodyState is = some.state(i);
+        const BodyState should = (i >= range.begin && i < range.end ? all : start).state(i);
+        ASSERT_TRUE(sameNumbers(is.p_WBcm, should.p_WBcm) && sameNumbers(is.P_WB, should.P_WB) &&
+                    sameNumbers(is.q_WB.coeffs(), should.q_WB.coeffs()) &&
+                    sameNumbers(is.L_WBcm_W, should.L_WBcm_W))
+            << k.name << " " << i;
+      }
+    }
+}
+
+TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {
+  Bodies start = someBodies(17);
+  start.L_WBcm_W.setZero();
+  start.q_WB.col(0) *= 1 + 1e-9;  // so that normalizing it would show
+  Pushes pushes = somePushes(17);
+  pushes.t_Bcm_W.setZero();
+  for (const Kernels& k : availableKernels()) {
+    const Bodies end = after(k, start, pushes);
+    EXPECT_TRUE(sameBits(end.q_WB, start.q_WB)) << k.name;
+    EXPECT_TRUE(sameBits(end.L_WBcm_W, start.L_WBcm_W)) << k.name;
+  }
+}
+
+TEST_P(BatchKernels, AreFiniteForFiniteBodies) {
+  for (Eigen::Index first = 0; first < 2000; first += 10) {  // ten without NaN
+    const Eigen::Index k = first / 10 * 11;
+    const Bodies end = after(kernels(), someBodies(10, k), somePushes(10, k));
+    ASSERT_TRUE(end.q_WB.allFinite() && end.L_WBcm_W.allFinite()) << first;
+    for (Eigen::Index i = 0; i < 10; ++i)
+      ASSERT_NEAR(end.q_WB.row(i).norm(), 1, 4 * kEps) << first << " " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BatchKernels, testing::ValuesIn(works()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(BatchKernelsTable, HasThePlainOneFirstAndAscends) {
+  const std::vector<Kernels>& all = availableKernels();
+  EXPECT_EQ(std::string(all.front().name), "plain");
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) EXPECT_LT(all[i].width, all[i + 1].width);
+  if (!std::getenv("RIGID_BODY_SIM_KERNELS")) EXPECT_EQ(kernels().width, all.back().width);
+}
+
+}  // namespace
+}  // namespace rigid_body_sim::batch
