@@ -190,7 +190,7 @@ class Package(unittest.TestCase):
                                    ("  brick:", "  brick:\n    linear_velocity: [0, 0, -300]"),
                                    ("step_s: 0.01", "step_s: 0.01\nintegrator: rk4"))
         self.assertEqual(refused.returncode, 1, refused.stdout)
-        self.assertIn("cannot hold 'rate_damping'", refused.stdout)
+        self.assertIn("'rate_damping' is too stiff", refused.stdout)
         self.assertIn("the largest stable step is", refused.stdout)
 
     def test_bad_parameters_are_refused_with_path_value_and_unit(self):

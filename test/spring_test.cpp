@@ -35,7 +35,8 @@ double limitNamedIn(const std::string& what) {
 
 class SpringByRow : public testing::TestWithParam<IntegratorRow> {
  protected:
-  bool isRefused() const { return GetParam().max_swing == 0; }
+  /// Explicit Euler: every oscillation grows, and only slow ones are taken.
+  bool grows() const { return GetParam().max_swing < 1; }
 };
 
 std::string nameOf(const testing::TestParamInfo<IntegratorRow>& info) { return info.param.name; }
@@ -43,11 +44,9 @@ std::string nameOf(const testing::TestParamInfo<IntegratorRow>& info) { return i
 TEST_P(SpringByRow, SwingsAsTheClosedFormWithTheMethodsOrder) {
   const IntegratorRow& row = GetParam();
   const Scene scene = oscillator("stiffness: 9.0", {0.4, -0.2, 0.6});
-  if (isRefused()) {
-    EXPECT_TRUE(contains(refusal([&] { flown(scene, row.name, 2, 200); }),
+  if (grows())
+    EXPECT_TRUE(contains(refusal([&] { flown(scene, row.name, 2, 20); }),
                          {"'spring'", "swings at 2.12132 rad/s"}));
-    return;
-  }
   const double rate = std::sqrt(9.0 / 2);
   const auto error = [&](int steps) {
     const Vector3d p = flown(scene, row.name, kTime, steps).bodies().p_WBcm.row(0);
@@ -58,13 +57,13 @@ TEST_P(SpringByRow, SwingsAsTheClosedFormWithTheMethodsOrder) {
     return;
   }
   const double least = row.order >= 6 ? 1e-12 : 1e-8;
-  EXPECT_NEAR(slopeOf(error, row.order >= 6 ? 4 : 32, least), row.order,
-              row.order >= 6 ? 0.5 : 0.1);
+  const int steps = row.order >= 6 ? 4 : grows() ? 512 : 32;
+  EXPECT_NEAR(slopeOf(error, steps, least), row.order, row.order >= 6 ? 0.5 : 0.1);
 }
 
 TEST_P(SpringByRow, StaysBoundedJustBelowTheLimitNamed) {
   const IntegratorRow& row = GetParam();
-  if (isRefused() || row.order == 0) return;
+  if (grows() || row.order == 0) return;
   Scene scene = oscillator("stiffness: 9.0e+4", {0.4, -0.2, 0.6});
   scene.integrator = row.name;
   scene.step_ns = 1'000'000'000;
