@@ -269,8 +269,8 @@ TEST(SpringDamping, StopsTheEndsExactlyWhateverItsSize) {
   pushed.L_WBcm_W += wrenches.t_Bcm_W;
   const double decay = (before - rateOf(simulator, pushed)) / before;
   EXPECT_GT(decay, damping * (1 / 2.7 + 1 / 1.4));  // arms make the ends lighter
-  dashpot.beforeDrift(bodies, 0, h);
-  dashpot.afterDrift(bodies, 0, h);
+  dashpot.beforeDrift(bodies, Instant(bodies, 0), h);
+  dashpot.afterDrift(bodies, Instant(bodies, 0), h);
   EXPECT_NEAR(rateOf(simulator, bodies), before * std::exp(-decay * h), 1e-14);
 }
 
