@@ -71,8 +71,7 @@ const Answer& answerOf(const HardCase& one, const Bodies& start, Tick ticks, dou
 Outcome outcomeOf(const Verdict& verdict, Errors& errors) {
   for (std::size_t k = 0; k < verdict.errors.size(); ++k) {
     if (verdict.errors[k] <= verdict.bounds[k]) continue;
-    return errors[Measure::kEnergy] <= kHundredth &&
-                   errors[Measure::kAngularMomentum] <= kHundredth
+    return errors[Measure::kEnergy] <= kHundredth && errors[Measure::kAngularMomentum] <= kHundredth
                ? Outcome::kDrifts
                : Outcome::kWrong;
   }
@@ -130,6 +129,14 @@ Claim claimOf(const HardCase& one, const std::string& rung) {
     if (std::find(excuse.rungs.begin(), excuse.rungs.end(), rung) != excuse.rungs.end())
       return {excuse.outcome, excuse.why};
   return {};
+}
+
+bool keeps(const Claim& claim, const Verdict& verdict) {
+  if (claim.outcome != Outcome::kDrifts || verdict.outcome != Outcome::kHolds)
+    return claim.outcome == verdict.outcome;
+  for (std::size_t k = 0; k < verdict.errors.size(); ++k)
+    if (verdict.errors[k] > verdict.bounds[k] / 4) return true;
+  return false;
 }
 
 Tick ticksOf(const HardCase& one, bool takes_its_time) {

@@ -9,10 +9,8 @@ namespace rigid_body_sim::reference {
 namespace {
 
 HardCase thinRod() {
-  HardCase one = {"rod_1_to_1e6",
-                  "moments a million to one, spinning about itself and across",
-                  sceneYaml(bodyYaml("rod", "1", "1.0e-6, 1, 1.0000005", "10, 1, 2")),
-                  5'000};
+  HardCase one = {"rod_1_to_1e6", "moments a million to one, spinning about itself and across",
+                  sceneYaml(bodyYaml("rod", "1", "1.0e-6, 1, 1.0000005", "10, 1, 2")), 5'000};
   one.answer = freeFlight;
   one.must = toRounding();
   one.must[2] = {Measure::kEnergy, 1e-10, "of R^T L an ulp is 2e-10 of the spin about itself"};
@@ -26,8 +24,7 @@ HardCase thinRod() {
 HardCase needle() {
   HardCase one = {"rod_1_to_1e9",
                   "Ixx goes to zero: the spin about itself is 1e-8 of the angular momentum",
-                  sceneYaml(bodyYaml("needle", "1", "1.0e-9, 1, 1", "10, 1, 2")),
-                  5'000};
+                  sceneYaml(bodyYaml("needle", "1", "1.0e-9, 1, 1", "10, 1, 2")), 5'000};
   one.answer = freeTops;
   one.must = toRounding();
   one.must[2] = {Measure::kEnergy, 1e-7, "of R^T L an ulp is 2e-7 of the spin about itself"};
@@ -40,8 +37,7 @@ HardCase needle() {
 HardCase lamina() {
   HardCase one = {"lamina",
                   "a flat plate: I1 + I2 = I3 to the last bit, the triangle inequality's edge",
-                  sceneYaml(bodyYaml("plate", "1", "0.3, 0.9, 1.2", "1, -4, 2")),
-                  5'000};
+                  sceneYaml(bodyYaml("plate", "1", "0.3, 0.9, 1.2", "1, -4, 2")), 5'000};
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "perpendicular axes theorem; Taylor series in extended precision";
@@ -51,11 +47,10 @@ HardCase lamina() {
 }
 
 HardCase almostSphere() {
-  HardCase one = {"almost_sphere",
-                  "moments apart by 1e-15 of themselves: 1/I1 - 1/I2 is all rounding",
-                  sceneYaml(bodyYaml("ball", "1", "1, 1.000000000000001, 1.000000000000002",
-                                     "1, -2, 3")),
-                  5'000};
+  HardCase one = {
+      "almost_sphere", "moments apart by 1e-15 of themselves: 1/I1 - 1/I2 is all rounding",
+      sceneYaml(bodyYaml("ball", "1", "1, 1.000000000000001, 1.000000000000002", "1, -2, 3")),
+      5'000};
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "Taylor series in extended precision";
@@ -65,15 +60,13 @@ HardCase almostSphere() {
 }
 
 HardCase masses() {
-  const std::string motion =
-      "orientation: [-0.51, 0.62, 0.41, 0.43], linear_velocity: [3, -2, 50]";
-  HardCase one = {"masses_1e-9_to_1e9",
-                  "a nanogram beside a million tonnes, falling and tumbling",
-                  sceneYaml(bodyYaml("mote", "1.0e-9", "1.0e-15, 1.3e-15, 2.1e-15", "1, -2, 1", motion) +
-                                ", " +
-                                bodyYaml("ship", "1.0e+9", "1.0e+13, 1.3e+13, 2.1e+13", "1, -2, 1", motion),
-                            "0.02", "gravity: {acceleration: [0, 0, -9.80665]}"),
-                  500};
+  const std::string motion = "orientation: [-0.51, 0.62, 0.41, 0.43], linear_velocity: [3, -2, 50]";
+  HardCase one = {
+      "masses_1e-9_to_1e9", "a nanogram beside a million tonnes, falling and tumbling",
+      sceneYaml(bodyYaml("mote", "1.0e-9", "1.0e-15, 1.3e-15, 2.1e-15", "1, -2, 1", motion) + ", " +
+                    bodyYaml("ship", "1.0e+9", "1.0e+13, 1.3e+13, 2.1e+13", "1, -2, 1", motion),
+                "0.02", "gravity: {acceleration: [0, 0, -9.80665]}"),
+      500};
   one.answer = freeFall({0, 0, -9.80665});
   one.must = {{Measure::kPosition, 0, "kicks and drifts, each rounded by half an ulp of 512 m",
                2 * 256 * 0x1p-52},
@@ -89,11 +82,11 @@ HardCase masses() {
 
 HardCase sizes() {
   const std::string motion = "orientation: [-0.51, 0.62, 0.41, 0.43]";
-  HardCase one = {"moments_1e-150_to_1e150",
-                  "squares of angular momenta at the ends of the numbers",
-                  sceneYaml(bodyYaml("tiny", "1", "1.0e-150, 1.3e-150, 2.1e-150", "1, -2, 1") + ", " +
-                            bodyYaml("huge", "1", "1.0e+150, 1.3e+150, 2.1e+150", "1, -2, 1")),
-                  5'000};
+  HardCase one = {
+      "moments_1e-150_to_1e150", "squares of angular momenta at the ends of the numbers",
+      sceneYaml(bodyYaml("tiny", "1", "1.0e-150, 1.3e-150, 2.1e-150", "1, -2, 1") + ", " +
+                bodyYaml("huge", "1", "1.0e+150, 1.3e+150, 2.1e+150", "1, -2, 1")),
+      5'000};
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "Taylor series in extended precision";

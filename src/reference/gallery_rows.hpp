@@ -62,8 +62,7 @@ inline std::vector<Excuse> eulerIsLost(Outcome semi_implicit) {
           {{"semi_implicit_velocity"},
            semi_implicit,
            "gains h^2 a.I a / 2 of energy a step, and the faster the more"},
-          {kFirstOrder,
-           Outcome::kWrong,
+          {kFirstOrder, Outcome::kWrong,
            "first order: lost within seconds; L is kept, and energy below |L|^2 / 2 I1"}};
 }
 

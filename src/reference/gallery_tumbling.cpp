@@ -8,11 +8,8 @@ namespace {
 const char* const kTooFar = "a velocity that is turned by tens of radians at once";
 
 HardCase intermediateAxis() {
-  HardCase one = {"intermediate_axis",
-                  "turns over again and again, for an hour; six with --long",
-                  sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0.1, 5, 0.1")),
-                  180'000,
-                  1'080'000};
+  HardCase one = {"intermediate_axis", "turns over again and again, for an hour; six with --long",
+                  sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0.1, 5, 0.1")), 180'000, 1'080'000};
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "rates of S. Peters' benchmark 'boxes'; Taylor series in extended precision";
@@ -41,23 +38,21 @@ HardCase separatrix() {
 }
 
 HardCase exactAxis() {
-  HardCase one = {"exact_axis",
-                  "exactly about the intermediate axis: must neither leave it nor divide by zero",
-                  sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0, 5, 0",
-                                     "orientation: [0, 0, 0, 1]")),
-                  50'000};
+  HardCase one = {
+      "exact_axis", "exactly about the intermediate axis: must neither leave it nor divide by zero",
+      sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0, 5, 0", "orientation: [0, 0, 0, 1]")),
+      50'000};
   one.answer = steadyTurn;
   one.must = toRounding();
   one.source = "Euler's equations: w x I w = 0; a turn at a constant rate";
-  one.elsewhere = "closed forms by cases divide by zero there (van Zon and Schofield 2007, section 3)";
+  one.elsewhere =
+      "closed forms by cases divide by zero there (van Zon and Schofield 2007, section 3)";
   return one;
 }
 
 HardCase fastSpinner() {
-  HardCase one = {"spin_64_rad_a_step",
-                  "tumbles by ten turns a step",
-                  sceneYaml(bodyYaml("spinner", "1", "0.01, 0.02, 0.03", "1700, 30, 2700")),
-                  100};
+  HardCase one = {"spin_64_rad_a_step", "tumbles by ten turns a step",
+                  sceneYaml(bodyYaml("spinner", "1", "0.01, 0.02, 0.03", "1700, 30, 2700")), 100};
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "fast spinner of reference/cases.cpp, 34 times as fast; Taylor series";
@@ -67,19 +62,16 @@ HardCase fastSpinner() {
   one.excuses = {
       {{"explicit_euler_velocity", "semi_implicit_velocity"}, Outcome::kInfinite, kTooFar},
       {{"semi_implicit_newton"}, Outcome::kWrong, kTooFar},
-      {kFirstOrder + Rungs{"split2"},
-       Outcome::kWrong,
+      {kFirstOrder + Rungs{"split2"}, Outcome::kWrong,
        "bounded as L is kept, but a turn of tens of radians in one piece is any motion"},
       {kRungeKutta, Outcome::kRefused, "bear 1 and 2 rad a step, and say how many substeps do"},
-      {{"adaptive"}, Outcome::kDrifts, "its tolerance is of a step, and it takes 40 a tick"}};
+      {{"adaptive"}, Outcome::kDrifts, "its tolerance is of a step, and it takes 300 a tick"}};
   return one;
 }
 
 HardCase absurdSpinner() {
-  HardCase one = {"spin_2e6_rad_a_step",
-                  "1e8 rad/s, and 1e10 rad in all",
-                  sceneYaml(bodyYaml("top", "1", "0.4, 1, 1", "1.0e+8, 3.0e+7, -4.0e+7")),
-                  5'000};
+  HardCase one = {"spin_2e6_rad_a_step", "1e8 rad/s, and 1e10 rad in all",
+                  sceneYaml(bodyYaml("top", "1", "0.4, 1, 1", "1.0e+8, 3.0e+7, -4.0e+7")), 5'000};
   one.answer = freeTops;
   one.must = toRounding();
   one.source = "closed form of a top with two equal moments, in extended precision";
@@ -89,15 +81,15 @@ HardCase absurdSpinner() {
       {{"semi_implicit_newton"}, Outcome::kWrong, kTooFar},
       {kFirstOrder, Outcome::kWrong, "bounded as L is kept, but any motion"},
       {kRungeKutta, Outcome::kRefused, "bear 1 and 2 rad a step, and say how many substeps do"},
-      {{"adaptive"}, Outcome::kInfinite, "gives up rather than take a million steps a tick"}};
+      {{"adaptive"},
+       Outcome::kInfinite,
+       "takes a thousandth of a tick at least, which is 2000 rad: frozen"}};
   return one;
 }
 
 HardCase millionSteps() {
-  HardCase one = {"million_steps",
-                  "no error may add up: 1e6 steps, and 1e8 (23 days) with --long",
-                  sceneYaml(bodyYaml("top", "1", "0.4, 1, 1", "0.6, 0.1, -0.2")),
-                  1'000'000,
+  HardCase one = {"million_steps", "no error may add up: 1e6 steps, and 1e8 (23 days) with --long",
+                  sceneYaml(bodyYaml("top", "1", "0.4, 1, 1", "0.6, 0.1, -0.2")), 1'000'000,
                   100'000'000};
   one.answer = freeTops;
   one.must = toRounding();
@@ -116,9 +108,9 @@ HardCase offCentre() {
                   5'000};
   one.answer = freeFlight;
   one.must = toRounding();
-  one.must.insert(one.must.begin(), {Measure::kPosition, 0,
-                                     "a sum a step, each rounded by half an ulp of 32 m",
-                                     16 * 0x1p-52});
+  one.must.insert(
+      one.must.begin(),
+      {Measure::kPosition, 0, "a sum a step, each rounded by half an ulp of 32 m", 16 * 0x1p-52});
   one.source = "Newton's first law; Taylor series in extended precision";
   one.elsewhere =
       "MuJoCo, DART and Simbody (semi-explicit) keep the velocity of the link's origin: it strays "
@@ -128,11 +120,11 @@ HardCase offCentre() {
 }
 
 HardCase withoutGyroscopicTerm() {
-  HardCase one = {"gyroscopic_off",
-                  "w x I w left out: the rate stays constant in the world, whatever the tensor",
-                  sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0.1, 5, 0.1"), "0.02",
-                            "gyroscopic: false"),
-                  5'000};
+  HardCase one = {
+      "gyroscopic_off",
+      "w x I w left out: the rate stays constant in the world, whatever the tensor",
+      sceneYaml(bodyYaml("handle", "1", "1, 2, 3", "0.1, 5, 0.1"), "0.02", "gyroscopic: false"),
+      5'000};
   one.answer = steadyTurn;
   // From L to w and back: up to three ulps of w a step, always to one side (literal_euler_test:
   // 1.2), and n steps of that turn the body by n^2/2 h |w| of it: 5.6e-10 rad.
