@@ -18,7 +18,7 @@ HardCase tinyRates() {
       momentumToTheBit(),
       unitLength()};
   one.source = "rate times time";
-  one.elsewhere = "|w| in a divisor: 0/0 in textbook forms of RK4 that rescale (own prototype)";
+  one.elsewhere = "0/0 in a textbook RK4 that rescales |w| (own prototype)";
   one.excuses = {velocityRungsSlip()};
   one.untrapped = {
       {"exact", "exact4", "exact6"},
@@ -36,7 +36,7 @@ HardCase farAway() {
   one.answer = freeFlight;
   one.must = {{Measure::kPosition, 0x1p-23, "one ulp of 1e9 m"}, momentumToTheBit(), unitLength()};
   one.source = "x0 + v t";
-  one.elsewhere = "float32 engines: an ulp is 64 m; in doubles plain sums do not move it either";
+  one.elsewhere = "not measured; in float32 an ulp is 64 m there";
   for (const IntegratorRow& row : integrators())
     one.excuses.push_back({{row.name},
                            Outcome::kDrifts,
@@ -57,7 +57,8 @@ HardCase atRest() {
   one.must = toRounding();
   one.must.push_back({Measure::kPosition, 0, "it is where it was"});
   one.source = "Newton's first law; a turn at a constant rate";
-  one.elsewhere = "engines put such bodies to sleep: they are not simulated at all";
+  one.elsewhere =
+      "not measured; Bullet and Jolt put resting bodies to sleep, and do not simulate them";
   one.excuses = {velocityRungsSlip()};
   return one;
 }
@@ -69,7 +70,8 @@ HardCase stepsOf(const std::string& name, const std::string& step_s, Tick ticks)
   one.answer = freeFlight;
   one.must = toRounding();
   one.source = "tumbling stone of reference/cases.cpp; Taylor series in extended precision";
-  one.elsewhere = "explicit gyroscopic terms: energy grows by h^2 a.I a / 2 a step, at any h";
+  one.elsewhere =
+      "an explicit gyroscopic term gains h^2 a.I a / 2 a step at any h (literal_euler_test.cpp)";
   one.excuses = step_s == "0.1"
                     ? onlyExactHolds(Outcome::kInfinite, kFiniteOrder)
                     : std::vector<Excuse>{{kVelocityRungs + kFirstOrder, Outcome::kDrifts,

@@ -65,9 +65,17 @@ std::vector<const HardCase*> casesOf(const Plan& plan) {
   return cases;
 }
 
+/// The measure to show: the row's first, or the first that is out of its bound.
+std::size_t shownOf(const reference::Verdict& verdict) {
+  for (std::size_t k = 0; k < verdict.errors.size(); ++k)
+    if (verdict.errors[k] > verdict.bounds[k]) return k;
+  return 0;
+}
+
 /// What a cell says: the error where the flight holds, what became of it where not.
 std::string inACell(const Cell& cell) {
   const reference::Verdict& verdict = cell.verdict;
+  const std::size_t shown = shownOf(verdict);
   switch (verdict.outcome) {
     case Outcome::kHolds:
       return text(verdict.errors.front(), 2);
@@ -76,7 +84,8 @@ std::string inACell(const Cell& cell) {
     case Outcome::kRefused:
       return "refused";
     default:
-      return (verdict.outcome == Outcome::kDrifts ? "~" : "x") + text(verdict.errors.front(), 2);
+      return (verdict.outcome == Outcome::kDrifts ? "~" : "x") + text(verdict.errors[shown], 2) +
+             (shown == 0 ? "" : std::string(" ") + wordsOf(cell.one->must[shown].measure).name);
   }
 }
 
@@ -185,14 +194,16 @@ void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
   std::filesystem::create_directories(folder);
   writeCases(cells, folder);
   std::ofstream file = open(folder, "cells.csv");
-  file << "case,rung,outcome,claim,keeps_claim,error,bound,end_s,wall_s,why\n";
+  file << "case,rung,outcome,claim,keeps_claim,measure,unit,error,bound,end_s,wall_s,why\n";
   for (const Cell& cell : cells) {
     const reference::Verdict& verdict = cell.verdict;
     const bool is_flown = !verdict.errors.empty();
+    const std::size_t shown = shownOf(verdict);
+    const MeasureWords words = wordsOf(cell.one->must[shown].measure);
     file << cell.one->name << ',' << cell.rung << ',' << nameOf(verdict.outcome) << ','
-         << nameOf(cell.claim.outcome) << ',' << cell.keepsClaim() << ','
-         << (is_flown ? text(verdict.errors.front(), 17) : "") << ','
-         << (is_flown ? text(verdict.bounds.front(), 17) : "") << ',' << text(verdict.end_s, 12)
+         << nameOf(cell.claim.outcome) << ',' << cell.keepsClaim() << ',' << words.name << ','
+         << words.unit << ',' << (is_flown ? text(verdict.errors[shown], 17) : "") << ','
+         << (is_flown ? text(verdict.bounds[shown], 17) : "") << ',' << text(verdict.end_s, 12)
          << ',' << text(cell.wall_s, 3) << ','
          << quoted(verdict.why.empty() ? cell.claim.why : verdict.why) << '\n';
   }

@@ -37,6 +37,7 @@ void print(const std::vector<Cell>& cells, std::ostream& out);
 /// What scripts/plot_hard_cases reads; makes the folder if it is not there.
 ///   cases.csv  a line a case: what is hard, what is measured and how large it may be, sources
 ///   cells.csv  a line a case and rung: outcome, claim, error and bound of the first measure
+///              that is out of its bound, or else of the row's first
 /// @throws std::invalid_argument if a file cannot be written
 void writeCsv(const std::vector<Cell>& cells, const std::string& folder);
 
