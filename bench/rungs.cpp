@@ -15,7 +15,7 @@ class Pushes : public Effect {
   explicit Pushes(Wrenches wrenches) : wrenches_(std::move(wrenches)) {}
   std::string name() const override { return "pushes"; }
   std::size_t bodyCount() const override { return static_cast<std::size_t>(wrenches_.f_W.rows()); }
-  void addWrenches(const Bodies&, double, Wrenches& wrenches) const override {
+  void addWrenches(const Instant&, Wrenches& wrenches) const override {
     wrenches.f_W += wrenches_.f_W;
     wrenches.t_Bcm_W += wrenches_.t_Bcm_W;
   }
@@ -52,7 +52,8 @@ Peer makeBare(const std::string& name, const Scene& scene) {
   it->effects = effectsOf(scene, scene.load.has_wrenches);
   for (const auto& effect : it->effects) it->active.add(effect.get());
   IntegratorOptions options;
-  options.gyroscopic = scene.load.gyroscopic;
+  if (scene.load.gyroscopic == Gyroscopic::kOff)
+    for (Eigen::Index i = 0; i < scene.bodies.count(); ++i) options.ungyroscopic.push_back(i);
   it->integrator = integratorNamed(name).make(options);
   it->step_s = scene.step_s;
   return {[it] {

@@ -288,8 +288,8 @@ TEST(AddedMass, RestrictedToSomeBodiesIsTheSame) {
   ASSERT_NE(some, nullptr);
   EXPECT_EQ(some->bodyCount(), 1u);
   Bodies rows = rowsOf(simulator.bodies(), {2, 0}), whole = simulator.bodies();
-  some->beforeDrift(rows, 0, 0.3);
-  scene.effects[0]->beforeDrift(whole, 0, 0.3);
+  some->beforeDrift(rows, Instant(rows, 0), 0.3);
+  scene.effects[0]->beforeDrift(whole, Instant(whole, 0), 0.3);
   EXPECT_FALSE(sameBits(whole.state(2), simulator.state(2)));
   EXPECT_TRUE(sameBits(rows.state(0), whole.state(2)));
   EXPECT_TRUE(sameBits(rows.state(1), simulator.state(0)));

@@ -17,7 +17,7 @@ class Held : public Effect {
   explicit Held(const Pushes& pushes) : pushes_(pushes) {}
   std::string name() const override { return "held"; }
   std::size_t bodyCount() const override { return static_cast<std::size_t>(pushes_.f_W.rows()); }
-  void addWrenches(const Bodies&, double, Wrenches& wrenches) const override {
+  void addWrenches(const Instant&, Wrenches& wrenches) const override {
     wrenches.f_W += pushes_.f_W;
     wrenches.t_Bcm_W += pushes_.t_Bcm_W;
   }

@@ -161,6 +161,46 @@ TEST(ToTwist, IsTheTwistOfTheOdometryInTheLinkFrame) {
   EXPECT_EQ(twist.twist, toOdometry(simulator, 1, "world", kStamp).twist.twist);
 }
 
+/// `asset` under gravity and a wrench that is held in the world's axes.
+Simulator pushedBodies(const Vector3d& g_W, const Wrench& held) {
+  Scene scene = turningBodies().scene();
+  scene.effects.push_back(uniformGravity(g_W, {0, 1}));
+  Simulator simulator(scene);
+  WrenchInput push;
+  push.applied = {Axes::kWorld, held, {0, 0, 0}};
+  simulator.apply(push);
+  for (int i = 0; i < 25; ++i) simulator.step();
+  return simulator;
+}
+
+TEST(ToAppliedWrench, IsTheSumOfEffectsAndInputsInTheAxesOfTheComFrame) {
+  const Vector3d g_W(0.3, -0.4, -9.8);
+  const Wrench held = {{2.1, -1.4, 0.9}, {0.3, 0.5, -0.2}};
+  const Simulator simulator = pushedBodies(g_W, held);
+  const geometry_msgs::WrenchStamped message = toAppliedWrench(simulator, 0, kStamp);
+  EXPECT_EQ(message.header.frame_id, "asset/com");
+  EXPECT_EQ(message.header.stamp, kStamp);
+  const Quaterniond q_WB = simulator.state(0).q_WB;
+  const Vector3d weight = simulator.bodyFrame(0).mass * g_W;
+  EXPECT_LE((q_WB * toVector(message.wrench.force) - weight - held.f_F).norm(), 30 * kTolerance);
+  EXPECT_LE((q_WB * toVector(message.wrench.torque) - held.t_Q_F).norm(), kTolerance);
+}
+
+TEST(ToEffectWrenches, HasARowForEachEffectWithAllBodies) {
+  const Vector3d g_W(0.3, -0.4, -9.8);
+  const EffectWrenches message =
+      toEffectWrenches(pushedBodies(g_W, {{1, 2, 3}, {0, 0, 0}}), "map", kStamp);
+  EXPECT_EQ(message.header.frame_id, "map");
+  EXPECT_EQ(message.names, (std::vector<std::string>{"asset", "other"}));
+  ASSERT_EQ(message.effects.size(), 2u);
+  EXPECT_EQ(message.effects[0].effect, "gravity");
+  EXPECT_EQ(message.effects[1].effect, "applied");
+  for (const EffectWrench& effect : message.effects) ASSERT_EQ(effect.wrenches.size(), 2u);
+  EXPECT_EQ(toVector(message.effects[0].wrenches[1].force), 2.7 * g_W);
+  EXPECT_EQ(toVector(message.effects[1].wrenches[0].force), Vector3d(1, 2, 3));
+  EXPECT_EQ(toVector(message.effects[1].wrenches[1].force), Vector3d::Zero());
+}
+
 TEST(ToStates, HoldsAllBodiesInTheOrderOfTheScene) {
   const Simulator simulator = turningBodies();
   const BodyStates states = toStates(simulator, "map", kStamp);

@@ -167,8 +167,8 @@ std::shared_ptr<const Effect> dragInWind(const std::string& areas) {
 Bodies braked(const Effect& drag, int steps) {
   Bodies bodies = withAddedMass();
   for (int i = 0; i < steps; ++i) {
-    drag.beforeDrift(bodies, 0, 0.7 / steps);
-    drag.afterDrift(bodies, 0, 0.7 / steps);
+    drag.beforeDrift(bodies, Instant(bodies, 0), 0.7 / steps);
+    drag.afterDrift(bodies, Instant(bodies, 0), 0.7 / steps);
   }
   return bodies;
 }
@@ -257,8 +257,8 @@ TEST(DragLaws, OfSomeBodiesAreThoseOfTheWhole) {
     EXPECT_EQ(few.t_Bcm_W.row(0), all.t_Bcm_W.row(2));
     EXPECT_TRUE(few.f_W.row(1).isZero(0));
     Bodies moved = bodies;
-    whole.beforeDrift(moved, 0.4, 0.1);
-    part->beforeDrift(some, 0.4, 0.1);
+    whole.beforeDrift(moved, Instant(moved, 0.4), 0.1);
+    part->beforeDrift(some, Instant(some, 0.4), 0.1);
     EXPECT_TRUE(sameBits(some.state(0), moved.state(2)));
     EXPECT_TRUE(sameBits(some.state(1), bodies.state(1)));
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Builds test/effect_package against the installed package, as users do, and flies its scene.
 
-usage: effect_package_test.py BUILD_FOLDER DEVEL_SPACE SCRATCH_FOLDER
+usage: effect_package_test.py BUILD_FOLDER DEVEL_SPACE
 """
 import math
 import os
@@ -12,6 +12,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -20,7 +21,9 @@ import xmlrpc.client
 import yaml
 
 PACKAGE = pathlib.Path(__file__).resolve().parent / "effect_package"
-BUILD, DEVEL, SCRATCH = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+BUILD, DEVEL = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+# Not within the checkout: roslaunch would find the installed files there, too.
+SCRATCH = pathlib.Path(tempfile.mkdtemp(prefix="effect_package."))
 SCENE = PACKAGE / "nesc_case_3.yaml"
 LIBRARY = "librigid_body_sim_effect_rate_damping.so"
 
@@ -102,8 +105,7 @@ def angle_deg(q):
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        shutil.rmtree(SCRATCH, ignore_errors=True)
-        SCRATCH.mkdir(parents=True)
+        cls.addClassCleanup(shutil.rmtree, SCRATCH, ignore_errors=True)
         forget_devel_space()
         cls.prefix, cls.own = install_and_build()
         usual = os.environ["LD_LIBRARY_PATH"]
@@ -190,7 +192,7 @@ class Package(unittest.TestCase):
                                    ("  brick:", "  brick:\n    linear_velocity: [0, 0, -300]"),
                                    ("step_s: 0.01", "step_s: 0.01\nintegrator: rk4"))
         self.assertEqual(refused.returncode, 1, refused.stdout)
-        self.assertIn("cannot hold 'rate_damping'", refused.stdout)
+        self.assertIn("'rate_damping' is too stiff", refused.stdout)
         self.assertIn("the largest stable step is", refused.stdout)
 
     def test_bad_parameters_are_refused_with_path_value_and_unit(self):

@@ -63,7 +63,11 @@ class InstructionCount : public testing::TestWithParam<std::string> {
 constexpr const char* kGravity = "gravity: {acceleration: [0.1, 0.2, -9.8]}";
 
 /// Every other effect, with nothing but zeros.
-constexpr const char* kZeros = ", damping: {linear: 0, angular: 0}";
+constexpr const char* kZeros =
+    ", damping: {linear: 0, angular: 0}, drag: {air_density: 1.2, drag_area: 0},"
+    " central_gravity: {mu: 0}, magnetic_dipole: {field: [0, 0, 0], dipole: [1, 2, 3]},"
+    " buoyancy: {fluid_density: 1, volume: 0, acceleration: [0, 0, -9.8]}, spring: [],"
+    " rotating_frame: {angular_velocity: [0, 0, 0]}, added_mass: {linear: [0, 0, 0]}";
 /// Another effect, that does something.
 constexpr const char* kDamping = ", damping: {linear: 0.1, angular: 0.2}";
 

@@ -161,8 +161,8 @@ TEST(ABadBody, EndsTheNodeWithOneAndALineThatNamesIt) {
                 {"bodies.ball.position: [1, 2] is not a list of 3 numbers [m]"});
   expectRefusal("bodies: {ball: {sphere: {radius: -0.1, density: 1000}}}",
                 {"bodies.ball.sphere.radius: -0.1 is not", "> 0 [m]"});
-  expectRefusal("bodies: {ball: {sphere: {radius: 0.1, density: 1000}, drag: true}}",
-                {"bodies.ball.drag: unknown key"});
+  expectRefusal("bodies: {ball: {sphere: {radius: 0.1, density: 1000}, shape: true}}",
+                {"bodies.ball.shape: unknown key"});
   expectRefusal("bodies: {ball: {mass: 1, inertia: [1, 1, 3]}}", {"bodies.ball", "triangle"});
   expectRefusal("bodies: {hull: {position: [0, 0, 0]}}", {"bodies.hull", "no URDF", "mass"});
 }

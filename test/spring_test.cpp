@@ -35,7 +35,8 @@ double limitNamedIn(const std::string& what) {
 
 class SpringByRow : public testing::TestWithParam<IntegratorRow> {
  protected:
-  bool isRefused() const { return GetParam().max_swing == 0; }
+  /// Explicit Euler: every oscillation grows, and only slow ones are taken.
+  bool grows() const { return GetParam().max_swing < 1; }
 };
 
 std::string nameOf(const testing::TestParamInfo<IntegratorRow>& info) { return info.param.name; }
@@ -43,11 +44,9 @@ std::string nameOf(const testing::TestParamInfo<IntegratorRow>& info) { return i
 TEST_P(SpringByRow, SwingsAsTheClosedFormWithTheMethodsOrder) {
   const IntegratorRow& row = GetParam();
   const Scene scene = oscillator("stiffness: 9.0", {0.4, -0.2, 0.6});
-  if (isRefused()) {
-    EXPECT_TRUE(contains(refusal([&] { flown(scene, row.name, 2, 200); }),
+  if (grows())
+    EXPECT_TRUE(contains(refusal([&] { flown(scene, row.name, 2, 20); }),
                          {"'spring'", "swings at 2.12132 rad/s"}));
-    return;
-  }
   const double rate = std::sqrt(9.0 / 2);
   const auto error = [&](int steps) {
     const Vector3d p = flown(scene, row.name, kTime, steps).bodies().p_WBcm.row(0);
@@ -58,13 +57,13 @@ TEST_P(SpringByRow, SwingsAsTheClosedFormWithTheMethodsOrder) {
     return;
   }
   const double least = row.order >= 6 ? 1e-12 : 1e-8;
-  EXPECT_NEAR(slopeOf(error, row.order >= 6 ? 4 : 32, least), row.order,
-              row.order >= 6 ? 0.5 : 0.1);
+  const int steps = row.order >= 6 ? 4 : grows() ? 512 : 32;
+  EXPECT_NEAR(slopeOf(error, steps, least), row.order, row.order >= 6 ? 0.5 : 0.1);
 }
 
 TEST_P(SpringByRow, StaysBoundedJustBelowTheLimitNamed) {
   const IntegratorRow& row = GetParam();
-  if (isRefused() || row.order == 0) return;
+  if (grows() || row.order == 0) return;
   Scene scene = oscillator("stiffness: 9.0e+4", {0.4, -0.2, 0.6});
   scene.integrator = row.name;
   scene.step_ns = 1'000'000'000;
@@ -88,8 +87,8 @@ INSTANTIATE_TEST_SUITE_P(Every, SpringByRow, testing::ValuesIn(integrators()), n
 TEST(Spring, AHundredTimesTooStiffIsRefusedWithTheLargestStep) {
   // 200 rad a step: w = 200/0.02 s.
   const std::string what = refusal([] { Simulator{oscillator("stiffness: 2.0e+8", {1, 0, 0})}; });
-  EXPECT_TRUE(contains(what, {"'exact'", "'spring' on body 0", "in steps of 0.02 s",
-                              "swings at 10000 rad/s", "largest stable step is 0.0002 s"}));
+  EXPECT_TRUE(contains(what, {"body 'ball': 'spring'", "swings at 10000 rad/s",
+                              "with 'exact' the largest stable step is 0.0002 s"}));
 }
 
 /// How far apart the ends of the springs of pair("", kAnchored) are.
@@ -270,8 +269,8 @@ TEST(SpringDamping, StopsTheEndsExactlyWhateverItsSize) {
   pushed.L_WBcm_W += wrenches.t_Bcm_W;
   const double decay = (before - rateOf(simulator, pushed)) / before;
   EXPECT_GT(decay, damping * (1 / 2.7 + 1 / 1.4));  // arms make the ends lighter
-  dashpot.beforeDrift(bodies, 0, h);
-  dashpot.afterDrift(bodies, 0, h);
+  dashpot.beforeDrift(bodies, Instant(bodies, 0), h);
+  dashpot.afterDrift(bodies, Instant(bodies, 0), h);
   EXPECT_NEAR(rateOf(simulator, bodies), before * std::exp(-decay * h), 1e-14);
 }
 

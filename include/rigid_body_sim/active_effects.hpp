@@ -42,7 +42,8 @@ class ActiveEffects {
   /// The instant evaluated last, with the velocities at it.
   const Instant& instant() const { return instant_; }
 
-  /// The flows, in their order before the drift and the other way round after it.
+  /// The flows, in their order before the drift and the other way round after it. If there are
+  /// kicks, they were evaluated just before.
   void beforeDrift(Bodies& bodies, double time_s, double h);
   void afterDrift(Bodies& bodies, double time_s, double h);
 
@@ -65,6 +66,7 @@ class ActiveEffects {
   };
 
   void addUp(std::vector<Entry>& entries);
+  void hasFlowed(const Effect& effect);
   template <class Flow>
   void audited(Entry& entry, Bodies& bodies, Flow flow);
   void auditKicks(double weight_s);

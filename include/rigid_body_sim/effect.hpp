@@ -62,10 +62,13 @@ class Effect {
   /// Whether the flow can be run back in time; methods of high order do.
   virtual bool hasReversibleFlow() const { return false; }
 
-  /// Its flow, before and after a drift of h [s] from `time_s`. Both together are the effect's own
-  /// motion for h.
-  virtual void beforeDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
-  virtual void afterDrift(Bodies&, double /*time_s*/, double /*h*/) const {}
+  /// Its flow, before and after a drift of h [s]. Both together are the effect's own motion for h.
+  /// @param now the bodies as they are then: at the drift's beginning, or at its end
+  virtual void beforeDrift(Bodies&, const Instant& /*now*/, double /*h*/) const {}
+  virtual void afterDrift(Bodies&, const Instant& /*now*/, double /*h*/) const {}
+
+  /// Whether the flow turns bodies, and does not only change their momenta and positions.
+  virtual bool hasTurningFlow() const { return false; }
 
   /// Whether it is right only with w x I w in the equations of motion of all bodies.
   virtual bool needsGyroscopicTerm() const { return false; }

@@ -14,6 +14,9 @@ class Instant {
   /// Another instant, in the same memory.
   void set(const Bodies& bodies, double time_s);
 
+  /// Momenta or positions have changed, but no attitude.
+  void forgetVelocities() { has_v_ = has_w_ = false; }
+
   const Bodies& bodies() const { return *bodies_; }
   double time_s() const { return time_s_; }
 

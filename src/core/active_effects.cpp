@@ -65,16 +65,32 @@ const Wrenches& ActiveEffects::evaluateKicks(const Bodies& bodies, double time_s
   return sum_;
 }
 
+/// Kicks were evaluated at the same attitudes just before.
 void ActiveEffects::beforeDrift(Bodies& bodies, double time_s, double h) {
+  if (hasKicks())
+    instant_.forgetVelocities();
+  else
+    instant_.set(bodies, time_s);
   for (Entry& entry : flows_) {
     entry.evaluations += entry.effect->bodyCount();
-    audited(entry, bodies, [&] { entry.effect->beforeDrift(bodies, time_s, h); });
+    audited(entry, bodies, [&] { entry.effect->beforeDrift(bodies, instant_, h); });
+    hasFlowed(*entry.effect);
   }
 }
 
 void ActiveEffects::afterDrift(Bodies& bodies, double time_s, double h) {
-  for (auto entry = flows_.rbegin(); entry != flows_.rend(); ++entry)
-    audited(*entry, bodies, [&] { entry->effect->afterDrift(bodies, time_s, h); });
+  instant_.set(bodies, time_s + h);
+  for (auto entry = flows_.rbegin(); entry != flows_.rend(); ++entry) {
+    audited(*entry, bodies, [&] { entry->effect->afterDrift(bodies, instant_, h); });
+    hasFlowed(*entry->effect);
+  }
+}
+
+void ActiveEffects::hasFlowed(const Effect& effect) {
+  if (effect.hasTurningFlow())
+    instant_.set(instant_.bodies(), instant_.time_s());
+  else
+    instant_.forgetVelocities();
 }
 
 /// The work of a flow is what it changes the kinetic energy by.

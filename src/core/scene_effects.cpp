@@ -14,7 +14,8 @@ namespace {
 /// The bodies that an effect acts on: all but those whose block says `<effect>: false`. They may
 /// say so of an effect that the scene does not have, but not ask for one.
 std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene_has_it,
-                                           const std::vector<Parameters>& blocks) {
+                                           const std::vector<Parameters>& blocks,
+                                           const Scene& scene) {
   std::vector<EffectBlock::Member> members;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const bool has_map = blocks[i].isMap(effect);
@@ -22,7 +23,8 @@ std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene
     if (!scene_has_it)
       blocks[i].refuse(effect, "the scene has no such effect; list it under `effects`");
     members.push_back({static_cast<Eigen::Index>(i),
-                       has_map ? blocks[i].child(effect) : Parameters({}, "bodies." + effect)});
+                       has_map ? blocks[i].child(effect)
+                               : Parameters({}, "bodies." + scene.bodies[i].name + "." + effect)});
   }
   return members;
 }
@@ -34,7 +36,7 @@ EffectBlock blockOf(const EffectRow& row, const Parameters& effects,
     if (effects.has(row.name)) block.entries = effects.children(row.name);
     return block;
   }
-  block.members = membersOf(row.name, effects.has(row.name), bodies);
+  block.members = membersOf(row.name, effects.has(row.name), bodies, scene);
   if (effects.has(row.name)) block.scene = effects.child(row.name);
   return block;
 }

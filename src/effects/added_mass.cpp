@@ -52,8 +52,12 @@ class AddedMassEffect : public Effect {
     }
   }
 
-  void beforeDrift(Bodies& bodies, double, double h) const override { flow(bodies, 0.5 * h); }
-  void afterDrift(Bodies& bodies, double, double h) const override { flow(bodies, 0.5 * h); }
+  void beforeDrift(Bodies& bodies, const Instant&, double h) const override {
+    flow(bodies, 0.5 * h);
+  }
+  void afterDrift(Bodies& bodies, const Instant&, double h) const override {
+    flow(bodies, 0.5 * h);
+  }
 
   /// A body that moves along its heaviest axis swings about it: Munk's moment is
   /// P^2 (1/M_i - 1/M_j) sin a cos a.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/simulator.hpp"
 
 namespace rigid_body_sim {
@@ -10,12 +11,21 @@ bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
 }
 
 void AppliedWrenches::addWrenches(const Instant& now, Wrenches& wrenches) const {
-  const Bodies& bodies = now.bodies();
+  if (held_.empty()) return;
+  const RotationPointers R_WB(now.R_WB());
+  const auto f_W = pointersTo(wrenches.f_W), t_W = pointersTo(wrenches.t_Bcm_W);
   for (const WrenchInput& input : held_) {
-    const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(input.body)));
-    const Wrench wrench = inWorldAboutCom(input.applied, q_WB);
-    wrenches.f_W.row(input.body) += wrench.f_F;
-    wrenches.t_Bcm_W.row(input.body) += wrench.t_Q_F;
+    const Eigen::Index i = input.body;
+    const Triple f(input.applied.wrench.f_F), t(input.applied.wrench.t_Q_F),
+        p_BcmQ_B(input.applied.p_BcmQ_B);
+    if (input.applied.axes == Axes::kWorld) {
+      add(f_W, i, f);
+      add(t_W, i, t + cross(R_WB.times(i, p_BcmQ_B), f));
+    } else {
+      const Turn R = R_WB.of(i);
+      add(f_W, i, R.times(f));
+      add(t_W, i, R.times(t + cross(p_BcmQ_B, f)));
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include "effects/alignment.hpp"
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
@@ -9,6 +10,10 @@ struct Displaced {
   double mass;        // of the fluid, rho V [kg]
   Vector3d p_BcmQ_B;  // centre of buoyancy Q [m]
 };
+
+bool operator==(const Displaced& a, const Displaced& b) {
+  return a.mass == b.mass && a.p_BcmQ_B == b.p_BcmQ_B;
+}
 
 /// The weight of the displaced fluid upside down, f = -rho V g at the centre of buoyancy Q
 /// (Archimedes, On Floating Bodies, I.5-7); potential energy rho V g.p_WQ. The body is wholly
@@ -24,11 +29,15 @@ class Buoyancy : public Effect {
   bool isConservative() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
-    for (const auto& [i, fluid] : all_) wrenches.f_W.row(i) -= fluid.mass * g_W_.transpose();
-    for (const auto& [i, fluid] : tilted_) {
-      const Vector3d p_BcmQ_W = now.R_WB(i) * fluid.p_BcmQ_B;
-      wrenches.t_Bcm_W.row(i) -= fluid.mass * p_BcmQ_W.cross(g_W_).transpose();
-    }
+    const auto f_W = pointersTo(wrenches.f_W), t_W = pointersTo(wrenches.t_Bcm_W);
+    const Triple g_W(g_W_);
+    all_.forEach([=](Eigen::Index i, const Displaced& fluid) { add(f_W, i, -fluid.mass * g_W); });
+    if (tilted_.empty()) return;
+    const RotationPointers R_WB(now.R_WB());
+    tilted_.forEach([=](Eigen::Index i, const Displaced& fluid) {
+      const Triple p_BcmQ_W = R_WB.times(i, Triple(fluid.p_BcmQ_B));
+      add(t_W, i, -fluid.mass * cross(p_BcmQ_W, g_W));
+    });
   }
 
   double potentialEnergy(const Instant& now) const override {

@@ -2,12 +2,11 @@
 #include <cmath>
 
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
 namespace {
-
-struct Nothing {};
 
 struct CentralField {
   double mu;          // [m^3/s^2]
@@ -51,7 +50,7 @@ Vector3d deviatorOf(const Vector3d& I) {
 class CentralGravity : public Effect {
  public:
   /// @param extended those of `all` that are not points for it
-  CentralGravity(const CentralField& field, Members<Nothing> all, Members<Nothing> extended)
+  CentralGravity(const CentralField& field, Members<NoData> all, Members<NoData> extended)
       : field_(field), all_(std::move(all)), extended_(std::move(extended)) {}
 
   std::string name() const override { return "central_gravity"; }
@@ -93,11 +92,17 @@ class CentralGravity : public Effect {
   static double cube(double x) { return x * x * x; }
 
   void addPointForces(const Bodies& bodies, Wrenches& wrenches) const {
-    for (const auto& [i, none] : all_) {
-      const Ray ray(field_, bodies, i);
-      const double pull = field_.mu * bodies.mass(i) * ray.inverse_r * ray.inverse_r;
-      wrenches.f_W.row(i) -= pull * ray.n_W.transpose();
-    }
+    const auto p_W = pointersTo(bodies.p_WBcm);
+    const auto f_W = pointersTo(wrenches.f_W);
+    const double* mass = bodies.mass.data();
+    const double mu = field_.mu;
+    const Triple center_W(field_.center_W);
+    all_.forEach([=](Eigen::Index i, NoData) {
+      const Triple r_W = at(p_W, i) - center_W;
+      const double inverse_r = 1 / std::sqrt(dot(r_W, r_W));
+      const double pull = mu * mass[i] * inverse_r * inverse_r;
+      add(f_W, i, -pull * (inverse_r * r_W));
+    });
   }
 
   void addOblateness(const Bodies& bodies, Wrenches& wrenches) const {
@@ -125,7 +130,7 @@ class CentralGravity : public Effect {
   }
 
   CentralField field_;
-  Members<Nothing> all_, extended_;
+  Members<NoData> all_, extended_;
 };
 
 /// An orbit goes round at sqrt(mu/r^3), and a body swings about the local vertical at up to the
@@ -186,7 +191,7 @@ CentralField readField(const Parameters& scene) {
 EffectList makeCentralGravity(EffectBlock& block) {
   const CentralField field = readField(block.scene);
   block.scene.boolean("gravity_gradient", false);
-  Members<Nothing> all, extended;
+  Members<NoData> all, extended;
   for (const auto& member : block.members) {
     all.add(member.body, {});
     if (hasGradient(block, member)) extended.add(member.body, {});

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
@@ -10,6 +11,10 @@ struct Rates {
   double linear;   // [1/s]
   double angular;  // [1/s]
 };
+
+bool operator==(const Rates& a, const Rates& b) {
+  return a.linear == b.linear && a.angular == b.angular;
+}
 
 /// P' = -c P and L' = -c L: velocities fall by exp(-c t), whatever the tensor.
 ///
@@ -31,8 +36,12 @@ class Damping : public Effect {
     }
   }
 
-  void beforeDrift(Bodies& bodies, double, double h) const override { decay(bodies, 0.5 * h); }
-  void afterDrift(Bodies& bodies, double, double h) const override { decay(bodies, 0.5 * h); }
+  void beforeDrift(Bodies& bodies, const Instant&, double h) const override {
+    decay(bodies, 0.5 * h);
+  }
+  void afterDrift(Bodies& bodies, const Instant&, double h) const override {
+    decay(bodies, 0.5 * h);
+  }
 
   Stiffness stiffness(const Instant&) const override {
     Stiffness stiffest;
@@ -49,9 +58,20 @@ class Damping : public Effect {
 
  private:
   void decay(Bodies& bodies, double h) const {
-    for (const auto& [i, c] : members_) {
-      bodies.P_WB.row(i) *= std::exp(-c.linear * h);
-      bodies.L_WBcm_W.row(i) *= std::exp(-c.angular * h);
+    if (members_.empty()) return;
+    const auto P = pointersTo(bodies.P_WB), L = pointersTo(bodies.L_WBcm_W);
+    const auto leftOf = [h](const Rates& c) {
+      return Rates{std::exp(-c.linear * h), std::exp(-c.angular * h)};
+    };
+    const auto decay = [P, L](Eigen::Index i, const Rates& left) {
+      set(P, i, left.linear * at(P, i));
+      set(L, i, left.angular * at(L, i));
+    };
+    if (const Rates* common = members_.commonData()) {
+      const Rates left = leftOf(*common);
+      members_.forEach([=](Eigen::Index i, const Rates&) { decay(i, left); });
+    } else {
+      members_.forEach([=](Eigen::Index i, const Rates& c) { decay(i, leftOf(c)); });
     }
   }
 

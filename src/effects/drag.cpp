@@ -4,6 +4,7 @@
 #include "effects/air.hpp"
 #include "effects/makers.hpp"
 #include "effects/quadratic_decay.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
@@ -13,6 +14,10 @@ struct Shape {
   double drag_area;        // drag coefficient times area [m^2]
   double rotational_drag;  // the same for turning [m^5]
 };
+
+bool operator==(const Shape& a, const Shape& b) {
+  return a.drag_area == b.drag_area && a.rotational_drag == b.rotational_drag;
+}
 
 /// The inverse mass matrix of body i in B.
 Matrix3d inverseMass(const Bodies& bodies, Eigen::Index i) {
@@ -54,11 +59,11 @@ class Drag : public Effect {
     }
   }
 
-  void beforeDrift(Bodies& bodies, double time_s, double h) const override {
-    brake(bodies, time_s, 0.5 * h);
+  void beforeDrift(Bodies& bodies, const Instant& now, double h) const override {
+    brake(bodies, now.time_s(), 0.5 * h);
   }
-  void afterDrift(Bodies& bodies, double time_s, double h) const override {
-    brake(bodies, time_s + h, 0.5 * h);
+  void afterDrift(Bodies& bodies, const Instant& now, double h) const override {
+    brake(bodies, now.time_s(), 0.5 * h);
   }
 
   Stiffness stiffness(const Instant& now) const override {
@@ -77,6 +82,9 @@ class Drag : public Effect {
  private:
   void brake(Bodies& bodies, double time_s, double h) const {
     const auto air = air_->at(time_s);
+    if (const Shape* shape = members_.commonData();
+        shape && shape->rotational_drag == 0 && !bodies.hasAddedMass())
+      return brakeAlike(bodies, air, 0.5 * h * shape->drag_area);
     for (const auto& [i, shape] : members_) {
       const Vector3d p = bodies.p_WBcm.row(i);
       const double c_h = 0.5 * air.density(p) * h;
@@ -86,6 +94,23 @@ class Drag : public Effect {
       bodies.L_WBcm_W.row(i) =
           brakedSpin(bodies.L_WBcm_W.row(i), bodies.moments(i), q, c_h * shape.rotational_drag);
     }
+  }
+
+  /// As brakedMomentum(), of bodies that differ in nothing but their mass.
+  template <class AirNow>
+  void brakeAlike(Bodies& bodies, const AirNow& air, double h_area) const {
+    const auto P = pointersTo(bodies.P_WB);
+    const auto p = pointersTo(std::as_const(bodies.p_WBcm));
+    const double* mass = bodies.mass.data();
+    members_.forEach([=, &air](Eigen::Index i, const Shape&) {
+      const double m = mass[i];
+      const Vector3d p_W = at(p, i).vector();
+      const Triple at_rest = m * Triple(air.wind(p_W));
+      const Triple through = at(P, i) - at_rest;
+      const double c_h = air.density(p_W) * h_area;
+      const double left = quadraticDecay(c_h * (std::sqrt(dot(through, through)) / m) / m);
+      set(P, i, at_rest + left * through);
+    });
   }
 
   static void brakeMomentum(Bodies& bodies, Eigen::Index i, const Vector3d& wind_W, double c_h) {

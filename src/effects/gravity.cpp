@@ -1,15 +1,14 @@
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
 namespace {
 
-struct Nothing {};
-
 /// f = m g. Potential energy -m g.x.
 class UniformGravity : public Effect {
  public:
-  UniformGravity(const Vector3d& g_W, Members<Nothing> members)
+  UniformGravity(const Vector3d& g_W, Members<NoData> members)
       : g_W_(g_W), members_(std::move(members)) {}
 
   std::string name() const override { return "gravity"; }
@@ -17,12 +16,10 @@ class UniformGravity : public Effect {
   bool isConservative() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
-    const Bodies& bodies = now.bodies();
-    if (static_cast<Eigen::Index>(members_.size()) == bodies.count()) {  // all: a column at a time
-      for (int k = 0; k < 3; ++k) wrenches.f_W.col(k) += g_W_(k) * bodies.mass;
-      return;
-    }
-    for (const auto& [i, none] : members_) wrenches.f_W.row(i) += bodies.mass(i) * g_W_.transpose();
+    const auto f_W = pointersTo(wrenches.f_W);
+    const double* mass = now.bodies().mass.data();
+    const Triple g_W(g_W_);
+    members_.forEach([=](Eigen::Index i, NoData) { add(f_W, i, mass[i] * g_W); });
   }
 
   double potentialEnergy(const Instant& now) const override {
@@ -38,7 +35,7 @@ class UniformGravity : public Effect {
 
  private:
   Vector3d g_W_;
-  Members<Nothing> members_;
+  Members<NoData> members_;
 };
 
 }  // namespace
@@ -46,7 +43,7 @@ class UniformGravity : public Effect {
 std::shared_ptr<const Effect> uniformGravity(const Vector3d& g_W,
                                              std::vector<Eigen::Index> bodies) {
   std::sort(bodies.begin(), bodies.end());
-  Members<Nothing> members;
+  Members<NoData> members;
   for (const Eigen::Index i : bodies) members.add(i, {});
   return std::make_shared<UniformGravity>(g_W, std::move(members));
 }

@@ -1,5 +1,6 @@
 #include "effects/alignment.hpp"
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 
 namespace rigid_body_sim {
@@ -17,10 +18,12 @@ class MagneticDipole : public Effect {
   bool isConservative() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
-    for (const auto& [i, m_B] : members_) {
-      const Vector3d m_W = now.R_WB(i) * m_B;
-      wrenches.t_Bcm_W.row(i) += m_W.cross(field_W_).transpose();
-    }
+    const RotationPointers R_WB(now.R_WB());
+    const auto t_W = pointersTo(wrenches.t_Bcm_W);
+    const Triple field_W(field_W_);
+    members_.forEach([=](Eigen::Index i, const Vector3d& m_B) {
+      add(t_W, i, cross(R_WB.times(i, Triple(m_B)), field_W));
+    });
   }
 
   double potentialEnergy(const Instant& now) const override {

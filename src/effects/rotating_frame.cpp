@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
 #include "rigid_body_sim/rotation.hpp"
 
@@ -10,6 +11,8 @@ namespace {
 struct Turned {
   bool has_rotation;  // is no point mass
 };
+
+bool operator==(const Turned& a, const Turned& b) { return a.has_rotation == b.has_rotation; }
 
 Matrix3d tensorInWorld(const Matrix3d& R_WB, const Vector3d& I_BBcm_B) {
   return R_WB * I_BBcm_B.asDiagonal() * R_WB.transpose();
@@ -42,6 +45,7 @@ class RotatingFrame : public Effect {
   bool needsGyroscopicTerm() const override { return true; }
   int flowOrder() const override { return kExact; }
   bool hasReversibleFlow() const override { return true; }
+  bool hasTurningFlow() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     const Bodies& bodies = now.bodies();
@@ -68,22 +72,28 @@ class RotatingFrame : public Effect {
     return sum;
   }
 
-  void beforeDrift(Bodies& bodies, double, double) const override { addFrame(bodies, 1); }
+  void beforeDrift(Bodies& bodies, const Instant& now, double) const override {
+    addFrame(bodies, now.R_WB(), 1);
+  }
 
-  void afterDrift(Bodies& bodies, double, double h) const override {
+  /// As the turn back leaves Omega as it is, the absolute momenta may lose the frame's before it.
+  void afterDrift(Bodies& bodies, const Instant& now, double h) const override {
+    addFrame(bodies, now.R_WB(), -1);
     const Quaterniond back = rotationExp(-h * w_W_);
     const Matrix3d R = back.toRotationMatrix();
-    for (const auto& [i, turned] : members_) {
-      BodyState body = bodies.state(i);
-      body.p_WBcm = R * body.p_WBcm;
-      body.P_WB = R * body.P_WB;
-      if (turned.has_rotation) {
-        body.q_WB = renormalized(back * body.q_WB);
-        body.L_WBcm_W = R * body.L_WBcm_W;
-      }
-      bodies.setState(i, body);
-    }
-    addFrame(bodies, -1);
+    const Triple R0(R.row(0)), R1(R.row(1)), R2(R.row(2));
+    const auto p_W = pointersTo(bodies.p_WBcm), P_W = pointersTo(bodies.P_WB),
+               L_W = pointersTo(bodies.L_WBcm_W);
+    const auto turnBack = [=](const Pointers3<double>& v, Eigen::Index i) {
+      const Triple now = at(v, i);
+      set(v, i, {dot(R0, now), dot(R1, now), dot(R2, now)});
+    };
+    members_.forEach([=](Eigen::Index i, const Turned&) {
+      turnBack(p_W, i);
+      turnBack(P_W, i);
+      turnBack(L_W, i);
+    });
+    turnAttitudes(bodies, back);
   }
 
   Stiffness stiffness(const Instant&) const override { return {2 * w_W_.norm(), 0, 0}; }
@@ -95,17 +105,38 @@ class RotatingFrame : public Effect {
  private:
   static constexpr int kExact = 100;  // above any method's order
 
+  void turnAttitudes(Bodies& bodies, const Quaterniond& turn) const {
+    double* qx = bodies.q_WB.data();
+    const Eigen::Index rows = bodies.count();
+    double *qy = qx + rows, *qz = qy + rows, *qw = qz + rows;
+    const double x = turn.x(), y = turn.y(), z = turn.z(), w = turn.w();
+    members_.forEach([=](Eigen::Index i, const Turned& turned) {
+      if (!turned.has_rotation) return;
+      const double a = qx[i], b = qy[i], c = qz[i], d = qw[i];
+      const double nx = w * a + x * d + y * c - z * b, ny = w * b + y * d + z * a - x * c,
+                   nz = w * c + z * d + x * b - y * a, nw = w * d - x * a - y * b - z * c;
+      const double scale = 1.5 - 0.5 * (nx * nx + ny * ny + nz * nz + nw * nw);
+      qx[i] = scale * nx;
+      qy[i] = scale * ny;
+      qz[i] = scale * nz;
+      qw[i] = scale * nw;
+    });
+  }
+
   /// From momenta relative to W to absolute ones, or back.
-  void addFrame(Bodies& bodies, double sign) const {
-    const Vector3d w_W = sign * w_W_;
-    for (const auto& [i, turned] : members_) {
-      const Vector3d p = bodies.p_WBcm.row(i);
-      bodies.P_WB.row(i) += bodies.mass(i) * w_W.cross(p);
-      if (!turned.has_rotation) continue;
-      const Quaterniond q_WB(Eigen::Vector4d(bodies.q_WB.row(i)));
-      const Vector3d w_B = q_WB.conjugate() * w_W;
-      bodies.L_WBcm_W.row(i) += q_WB * bodies.moments(i).cwiseProduct(w_B);
-    }
+  void addFrame(Bodies& bodies, const ColumnR& rotations, double sign) const {
+    const Triple w_W(Vector3d(sign * w_W_));
+    const RotationPointers R_WB(rotations);
+    const auto p_W = pointersTo(std::as_const(bodies.p_WBcm)),
+               I = pointersTo(std::as_const(bodies.I_BBcm_B));
+    const auto P_W = pointersTo(bodies.P_WB), L_W = pointersTo(bodies.L_WBcm_W);
+    const double* mass = bodies.mass.data();
+    members_.forEach([=](Eigen::Index i, const Turned& turned) {
+      add(P_W, i, mass[i] * cross(w_W, at(p_W, i)));
+      const Triple w_B = R_WB.transposedTimes(i, w_W);
+      const Triple moment = R_WB.times(i, {I.x[i] * w_B.x, I.y[i] * w_B.y, I.z[i] * w_B.z});
+      if (turned.has_rotation) add(L_W, i, moment);
+    });
   }
 
   Vector3d w_W_;

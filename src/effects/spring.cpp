@@ -5,6 +5,7 @@
 #include <set>
 
 #include "effects/makers.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -37,40 +38,39 @@ using Springs = std::vector<Spring>;
 
 /// The line between the ends at an instant.
 struct Line {
-  std::array<Vector3d, 2> r_W;  // from the bodies' centres of mass
-  Vector3d d_W;                 // from the first to the second end
+  std::array<Turn, 2> R_WB;   // of those bodies whose end turns
+  std::array<Triple, 2> r_W;  // from the bodies' centres of mass, the same
+  Triple d_W;                 // from the first to the second end
   double length;
 };
 
-/// `turned(i, r_B)` turns a vector of body i to W.
-template <class Turned>
-Line lineOf(const Spring& spring, const Bodies& bodies, Turned turned) {
+inline Line lineOf(const Spring& spring, const Instant& now) {
+  const RotationPointers R_WB(now.R_WB());
+  const auto p_WBcm = pointersTo(now.bodies().p_WBcm);
   Line line;
-  std::array<Vector3d, 2> p_W;
+  std::array<Triple, 2> p_W;
   for (int k = 0; k < 2; ++k) {
     const End& end = spring.ends[k];
-    line.r_W[k] = end.turns ? Vector3d(turned(end.body, end.p)) : Vector3d::Zero();
-    p_W[k] =
-        end.isInWorld() ? end.p : Vector3d(bodies.p_WBcm.row(end.body).transpose() + line.r_W[k]);
+    p_W[k] = end.isInWorld() ? Triple(end.p) : at(p_WBcm, end.body);
+    if (!end.turns) continue;
+    line.R_WB[k] = R_WB.of(end.body);
+    line.r_W[k] = line.R_WB[k].times(Triple(end.p));
+    p_W[k] = p_W[k] + line.r_W[k];
   }
   line.d_W = p_W[1] - p_W[0];
-  line.length = line.d_W.norm();
+  line.length = std::sqrt(dot(line.d_W, line.d_W));
   return line;
 }
 
-Line lineOf(const Spring& spring, const Instant& now) {
-  return lineOf(spring, now.bodies(),
-                [&](Eigen::Index i, const Vector3d& r_B) -> Vector3d { return now.R_WB(i) * r_B; });
-}
-
 /// f_W on the first end, -f_W on the second.
-void addForce(const Spring& spring, const Line& line, const Vector3d& f_W, Wrenches& wrenches) {
+inline void addForce(const Spring& spring, const Line& line, const Triple& f_W,
+                     Wrenches& wrenches) {
   for (int k = 0; k < 2; ++k) {
     const End& end = spring.ends[k];
     if (end.isInWorld()) continue;
-    const Vector3d own_W = k == 0 ? f_W : Vector3d(-f_W);
-    wrenches.f_W.row(end.body) += own_W;
-    if (end.turns) wrenches.t_Bcm_W.row(end.body) += line.r_W[k].cross(own_W);
+    const Triple own_W = k == 0 ? f_W : -1 * f_W;
+    add(pointersTo(wrenches.f_W), end.body, own_W);
+    if (end.turns) add(pointersTo(wrenches.t_Bcm_W), end.body, cross(line.r_W[k], own_W));
   }
 }
 
@@ -168,7 +168,8 @@ class ElasticSprings : public SpringEffect {
       const Line line = lineOf(spring, now);
       const double own =
           spring.stiffness * (lightest(spring.ends[0], bodies) + lightest(spring.ends[1], bodies));
-      const double force = spring.actsAt(line.length) ? pull(spring, line).norm() : 0;
+      const Triple pulled = spring.actsAt(line.length) ? pull(spring, line) : Triple(0, 0, 0);
+      const double force = std::sqrt(dot(pulled, pulled));
       for (const End& end : spring.ends) {
         if (end.isInWorld()) continue;
         squares(end.body) += own;
@@ -187,8 +188,8 @@ class ElasticSprings : public SpringEffect {
 
  private:
   /// On the first end; smooth at l = 0 if l0 = 0.
-  static Vector3d pull(const Spring& spring, const Line& line) {
-    return spring.stiffness * (1 - spring.rest_length / line.length) * line.d_W;
+  static Triple pull(const Spring& spring, const Line& line) {
+    return (spring.stiffness * (1 - spring.rest_length / line.length)) * line.d_W;
   }
 };
 
@@ -213,26 +214,26 @@ class SpringDamping : public SpringEffect {
     for (const Spring& spring : springs()) {
       const Line line = lineOf(spring, now);
       if (!spring.actsAt(line.length)) continue;
-      const Vector3d n_W = line.d_W / line.length;
+      const Triple n_W = (1 / line.length) * line.d_W;
       double rate = 0;  // l'
       for (int k = 0; k < 2; ++k) {
         const Eigen::Index i = spring.ends[k].body;
         if (i == kWorld) continue;
-        Vector3d v_WQ = now.v_WBcm().row(i);
-        if (spring.ends[k].turns) v_WQ += Vector3d(now.w_WB().row(i)).cross(line.r_W[k]);
-        rate += (k == 0 ? -1 : 1) * n_W.dot(v_WQ);
+        Triple v_WQ = at(pointersTo(now.v_WBcm()), i);
+        if (spring.ends[k].turns) v_WQ = v_WQ + cross(at(pointersTo(now.w_WB()), i), line.r_W[k]);
+        rate += (k == 0 ? -1 : 1) * dot(n_W, v_WQ);
       }
-      addForce(spring, line, spring.damping * rate * n_W, wrenches);
+      addForce(spring, line, (spring.damping * rate) * n_W, wrenches);
     }
   }
 
-  void beforeDrift(Bodies& bodies, double, double h) const override {
-    for (const Spring& spring : springs()) flow(spring, bodies, 0.5 * h);
+  void beforeDrift(Bodies& bodies, const Instant& now, double h) const override {
+    for (const Spring& spring : springs()) flow(spring, now, bodies, 0.5 * h);
   }
 
-  void afterDrift(Bodies& bodies, double, double h) const override {
+  void afterDrift(Bodies& bodies, const Instant& now, double h) const override {
     for (auto spring = springs().rbegin(); spring != springs().rend(); ++spring)
-      flow(*spring, bodies, 0.5 * h);
+      flow(*spring, now, bodies, 0.5 * h);
   }
 
   /// Bounded as that of ElasticSprings.
@@ -256,28 +257,24 @@ class SpringDamping : public SpringEffect {
   }
 
  private:
-  static Quaterniond attitude(const Bodies& bodies, Eigen::Index i) {
-    return Quaterniond(Eigen::Vector4d(bodies.q_WB.row(i)));
-  }
-
-  static void flow(const Spring& spring, Bodies& bodies, double h) {
-    const Line line = lineOf(spring, bodies, [&](Eigen::Index i, const Vector3d& r_B) {
-      return attitude(bodies, i) * r_B;
-    });
+  static void flow(const Spring& spring, const Instant& now, Bodies& bodies, double h) {
+    const Line line = lineOf(spring, now);
     if (!spring.actsAt(line.length)) return;
-    const Vector3d n_W = line.d_W / line.length;
-    std::array<Vector3d, 2> arms_W;  // r x n
+    const Triple n_W = (1 / line.length) * line.d_W;
+    const auto P = pointersTo(bodies.P_WB), L = pointersTo(bodies.L_WBcm_W);
+    std::array<Triple, 2> arms_W;  // r x n
     double rate = 0, inverse_mass = 0;
     for (int k = 0; k < 2; ++k) {
       const End& end = spring.ends[k];
       if (end.isInWorld()) continue;
-      double own = n_W.dot(bodies.v_WBcm(end.body));
-      inverse_mass += n_W.dot(bodies.velocityFor(end.body, n_W));
+      const Triple v_W = velocityFor(n_W, bodies, end.body);  // I^-1 and M^-1 are symmetric
+      double own = dot(v_W, at(P, end.body));
+      inverse_mass += dot(n_W, v_W);
       if (end.turns) {
-        arms_W[k] = line.r_W[k].cross(n_W);
-        const Vector3d w_W = angularVelocity(arms_W[k], bodies, end.body);
-        own += w_W.dot(bodies.L_WBcm_W.row(end.body));  // I^-1 is symmetric
-        inverse_mass += w_W.dot(arms_W[k]);
+        arms_W[k] = cross(line.r_W[k], n_W);
+        const Triple w_W = angularVelocityFor(arms_W[k], line.R_WB[k], bodies, end.body);
+        own += dot(w_W, at(L, end.body));
+        inverse_mass += dot(w_W, arms_W[k]);
       }
       rate += k == 0 ? -own : own;
     }
@@ -286,15 +283,23 @@ class SpringDamping : public SpringEffect {
       const End& end = spring.ends[k];
       if (end.isInWorld()) continue;
       const double own = k == 0 ? impulse : -impulse;
-      bodies.P_WB.row(end.body) += own * n_W;
-      if (end.turns) bodies.L_WBcm_W.row(end.body) += own * arms_W[k];
+      add(P, end.body, own * n_W);
+      if (end.turns) add(L, end.body, own * arms_W[k]);
     }
   }
 
+  /// M^-1 P
+  static Triple velocityFor(const Triple& P_W, const Bodies& bodies, Eigen::Index i) {
+    if (bodies.hasAddedMass()) return Triple(bodies.velocityFor(i, P_W.vector()));
+    return (1 / bodies.mass(i)) * P_W;
+  }
+
   /// I^-1 L in W.
-  static Vector3d angularVelocity(const Vector3d& L_W, const Bodies& bodies, Eigen::Index i) {
-    const Quaterniond q_WB = attitude(bodies, i);
-    return q_WB * (q_WB.conjugate() * L_W).cwiseQuotient(bodies.moments(i));
+  static Triple angularVelocityFor(const Triple& L_W, const Turn& R_WB, const Bodies& bodies,
+                                   Eigen::Index i) {
+    const auto I = pointersTo(bodies.I_BBcm_B);
+    const Triple L_B = R_WB.transposedTimes(L_W);
+    return R_WB.times({L_B.x / I.x[i], L_B.y / I.y[i], L_B.z / I.z[i]});
   }
 };
 

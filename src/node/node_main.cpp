@@ -84,8 +84,8 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
   for (const std::string& elision : elisions(node.scene()))
     ROS_INFO("not computed, as it would change nothing: %s", elision.c_str());
   std::vector<std::string> services;
-  for (const char* name :
-       {names::kPause, names::kStep, names::kReset, "get_loggers", "set_logger_level"})
+  for (const char* name : {names::kPause, names::kStep, names::kReset, names::kSwitchEffect,
+                           "get_loggers", "set_logger_level"})
     services.push_back(private_nh.resolveName(name));  // the last two are roscpp's own
   const MasterWatch watch(services);
   node.run();

@@ -58,8 +58,8 @@ class RateDamping : public Effect {
   // The flow: while a drift lasts, V and rho are what they are at its ends; then
   // L' = -rho V D I^-1 L is solved by exponentials, which no step makes unstable.
   int flowOrder() const override { return 2; }
-  void beforeDrift(Bodies& bodies, double, double h) const override { damp(bodies, 0.5 * h); }
-  void afterDrift(Bodies& bodies, double, double h) const override { damp(bodies, 0.5 * h); }
+  void beforeDrift(Bodies& bodies, const Instant&, double h) const override { damp(bodies, 0.5 * h); }
+  void afterDrift(Bodies& bodies, const Instant&, double h) const override { damp(bodies, 0.5 * h); }
 
   Stiffness stiffness(const Instant& now) const override {
     Stiffness stiffest;
