@@ -1,0 +1,213 @@
+#include "tools/hard_cases/matrix.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+
+namespace rigid_body_sim::hard_cases {
+namespace {
+
+using reference::Bound;
+using reference::HardCase;
+using reference::Measure;
+using reference::Outcome;
+
+struct MeasureWords {
+  const char* name;
+  const char* unit;
+};
+
+MeasureWords wordsOf(Measure measure) {
+  switch (measure) {
+    case Measure::kAttitude:
+      return {"attitude", "rad"};
+    case Measure::kPosition:
+      return {"position", "m"};
+    case Measure::kMomentum:
+      return {"P", ""};
+    case Measure::kAngularMomentum:
+      return {"L", ""};
+    case Measure::kEnergy:
+      return {"energy", ""};
+    case Measure::kLength:
+      return {"|q|", ""};
+  }
+  return {"", ""};
+}
+
+std::string text(double number, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << number;
+  return text.str();
+}
+
+std::vector<std::string> rungsOf(const Plan& plan) {
+  std::vector<std::string> rungs;
+  for (const std::string& name : plan.rungs) integratorNamed(name);
+  for (const IntegratorRow& row : integrators())
+    if (plan.rungs.empty() ||
+        std::find(plan.rungs.begin(), plan.rungs.end(), row.name) != plan.rungs.end())
+      rungs.push_back(row.name);
+  return rungs;
+}
+
+std::vector<const HardCase*> casesOf(const Plan& plan) {
+  std::vector<const HardCase*> cases;
+  for (const std::string& name : plan.cases) cases.push_back(&reference::hardCaseNamed(name));
+  if (plan.cases.empty())
+    for (const HardCase& one : reference::gallery()) cases.push_back(&one);
+  return cases;
+}
+
+/// The measure to show: the row's first, or the first that is out of its bound.
+std::size_t shownOf(const reference::Verdict& verdict) {
+  for (std::size_t k = 0; k < verdict.errors.size(); ++k)
+    if (verdict.errors[k] > verdict.bounds[k]) return k;
+  return 0;
+}
+
+/// What a cell says: the error where the flight holds, what became of it where not.
+std::string inACell(const Cell& cell) {
+  const reference::Verdict& verdict = cell.verdict;
+  const std::size_t shown = shownOf(verdict);
+  switch (verdict.outcome) {
+    case Outcome::kHolds:
+      return text(verdict.errors.front(), 2);
+    case Outcome::kInfinite:
+      return "inf " + text(verdict.end_s, 3) + "s";
+    case Outcome::kRefused:
+      return "refused";
+    default:
+      return (verdict.outcome == Outcome::kDrifts ? "~" : "x") + text(verdict.errors[shown], 2) +
+             (shown == 0 ? "" : std::string(" ") + wordsOf(cell.one->must[shown].measure).name);
+  }
+}
+
+std::ofstream open(const std::string& folder, const std::string& name) {
+  std::ofstream file(folder + "/" + name);
+  if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
+  return file;
+}
+
+void close(std::ofstream& file, const std::string& folder) {
+  file.close();
+  if (!file) throw std::invalid_argument(folder + ": the disk is full, or it cannot be written to");
+}
+
+/// Quoted, as sentences have commas.
+std::string quoted(const std::string& text) {
+  std::string doubled;
+  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return '"' + doubled + '"';
+}
+
+/// The parts of a case's first bound in words: `2.2e-16 a tick + 16 ulps`.
+std::string boundInWords(const Bound& bound) {
+  std::string words = bound.most > 0 ? text(bound.most, 2) : "";
+  const auto add = [&](double part, const std::string& unit) {
+    if (part > 0) words += (words.empty() ? "" : " + ") + text(part, 2) + unit;
+  };
+  add(bound.a_tick, " a tick");
+  add(bound.ulps, " ulps of the input");
+  return words.empty() ? "not a bit" : words;
+}
+
+void writeCases(const std::vector<Cell>& cells, const std::string& folder) {
+  std::ofstream file = open(folder, "cases.csv");
+  file << "case,what,ticks,step_s,measure,unit,bound,bound_in_words,why,source,elsewhere\n";
+  const HardCase* last = nullptr;
+  for (const Cell& cell : cells) {
+    if (cell.one == last) continue;
+    last = cell.one;
+    const Bound& bound = last->must.front();
+    const auto flown = std::find_if(cells.begin(), cells.end(), [&](const Cell& other) {
+      return other.one == last && !other.verdict.bounds.empty();
+    });
+    file << last->name << ',' << quoted(last->what) << ',' << last->ticks << ','
+         << text(sceneOf(*last, Scene().integrator).step_s(), 12) << ','
+         << wordsOf(bound.measure).name << ',' << wordsOf(bound.measure).unit << ','
+         << (flown == cells.end() ? "" : text(flown->verdict.bounds.front(), 6)) << ','
+         << quoted(boundInWords(bound)) << ',' << quoted(bound.why) << ',' << quoted(last->source)
+         << ',' << quoted(last->elsewhere) << '\n';
+  }
+  close(file, folder);
+}
+
+void printBroken(const std::vector<Cell>& cells, std::ostream& out) {
+  for (const Cell& cell : cells)
+    if (!cell.keepsClaim())
+      out << "\nBROKEN: " << cell.one->name << " with " << cell.rung << " is claimed to be '"
+          << nameOf(cell.claim.outcome) << "' and is '" << nameOf(cell.verdict.outcome) << "'";
+}
+
+}  // namespace
+
+std::vector<Cell> fly(const Plan& plan,
+                      const std::function<void(const std::string& what, double part)>& progress) {
+  using Clock = std::chrono::steady_clock;
+  const auto cases = casesOf(plan);
+  const auto rungs = rungsOf(plan);
+  std::vector<Cell> cells;
+  for (const HardCase* one : cases) {
+    for (const std::string& rung : rungs) {
+      progress(one->name + ", " + rung, static_cast<double>(cells.size()) /
+                                            static_cast<double>(cases.size() * rungs.size()));
+      const auto start = Clock::now();
+      cells.push_back({one, rung, claimOf(*one, rung), judge(*one, rung, plan.takes_its_time)});
+      cells.back().wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+    }
+  }
+  return cells;
+}
+
+void print(const std::vector<Cell>& cells, std::ostream& out) {
+  if (cells.empty()) return;
+  std::vector<std::string> rungs;
+  for (const Cell& cell : cells)
+    if (cell.one == cells.front().one) rungs.push_back(cell.rung);
+  out << "A number: the error, within its bound. ~: drifts, but energy and L are kept to 1%.\n"
+         "x: another motion. inf: frozen, as it would have become infinite. !: not as claimed.\n\n";
+  for (std::size_t k = 0; k < rungs.size(); ++k)
+    out << std::setw(3) << k + 1 << ' ' << rungs[k] << '\n';
+  out << '\n' << std::left << std::setw(26) << "case" << std::setw(10) << "measure" << std::right;
+  for (std::size_t k = 0; k < rungs.size(); ++k) out << std::setw(11) << k + 1;
+  const HardCase* last = nullptr;
+  for (const Cell& cell : cells) {
+    if (cell.one != last)
+      out << '\n'
+          << std::left << std::setw(26) << cell.one->name << std::setw(10)
+          << wordsOf(cell.one->must.front().measure).name << std::right;
+    last = cell.one;
+    out << std::setw(11) << inACell(cell) + (cell.keepsClaim() ? "" : "!");
+  }
+  out << '\n';
+  printBroken(cells, out);
+}
+
+void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  writeCases(cells, folder);
+  std::ofstream file = open(folder, "cells.csv");
+  file << "case,rung,outcome,claim,keeps_claim,measure,unit,error,bound,end_s,wall_s,why\n";
+  for (const Cell& cell : cells) {
+    const reference::Verdict& verdict = cell.verdict;
+    const bool is_flown = !verdict.errors.empty();
+    const std::size_t shown = shownOf(verdict);
+    const MeasureWords words = wordsOf(cell.one->must[shown].measure);
+    file << cell.one->name << ',' << cell.rung << ',' << nameOf(verdict.outcome) << ','
+         << nameOf(cell.claim.outcome) << ',' << cell.keepsClaim() << ',' << words.name << ','
+         << words.unit << ',' << (is_flown ? text(verdict.errors[shown], 17) : "") << ','
+         << (is_flown ? text(verdict.bounds[shown], 17) : "") << ',' << text(verdict.end_s, 12)
+         << ',' << text(cell.wall_s, 3) << ','
+         << quoted(verdict.why.empty() ? cell.claim.why : verdict.why) << '\n';
+  }
+  close(file, folder);
+}
+
+}  // namespace rigid_body_sim::hard_cases
