@@ -86,6 +86,22 @@ TEST(EffectTime, IsTheTickTimesTheStep) {
   }
 }
 
+TEST(EffectTime, OfSubstepsIsTheirOwn) {
+  const auto recorder = std::make_shared<Recorder>();
+  Scene scene = sceneOf(genericSceneBody("b"), "rk4");
+  scene.substeps = 3;
+  scene.effects.push_back(recorder);
+  Simulator simulator(scene);
+  for (int i = 0; i < 2; ++i) simulator.step();
+  ASSERT_EQ(recorder->times.size(), 2u * 3 * 4);
+  const double h = 0.02 / 3;
+  for (std::size_t step = 0; step < 6; ++step) {
+    const std::vector<double> expected = timesOfStep("rk4", static_cast<double>(step) * h, h);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(recorder->times[4 * step + i], expected[i], 8 * kEps * 0.04) << step;
+  }
+}
+
 TEST(EffectTime, GoesOnOverAReset) {
   const auto recorder = std::make_shared<Recorder>();
   Scene scene = sceneOf(genericSceneBody("b"));

@@ -86,6 +86,18 @@ TEST(Impulse, MovesTheBodyFromItsTickOn) {
   EXPECT_LE(difference(simulator.state(0).p_WBcm, p0 + 0.02 * kForce / 2.7), 8 * kEps);
 }
 
+TEST(Impulse, OffTheCentreOfMassTurnsTheBodyToo) {
+  Simulator simulator(scene());
+  ImpulseInput input = knock(kForce);
+  input.applied.wrench.t_Q_F = kTorque;
+  input.applied.p_BcmQ_B << 0.3, -0.2, 0.5;
+  const Vector3d arm_W = simulator.state(0).q_WB * input.applied.p_BcmQ_B;
+  simulator.apply(input);
+  simulator.step();
+  const Vector3d expected = kTorque + arm_W.cross(kForce);
+  EXPECT_LE(difference(simulator.state(0).L_WBcm_W, expected), 8 * kEps * expected.norm());
+}
+
 TEST(Impulse, AlwaysAdds) {
   Simulator simulator(scene());
   for (int i = 0; i < 1000; ++i) simulator.apply(knock(kForce, i / 10));
