@@ -282,8 +282,8 @@ void Parameters::refuseUnknown() const {
     const std::string nearest = nearestWord(entry.first, asked_);
     std::string known;
     for (const std::string& key : asked_) known += (known.empty() ? "" : ", ") + key;
-    refuse(entry.first, nearest.empty() ? "unknown key; there are " + known
-                                        : "unknown key; did you mean '" + nearest + "'?");
+    if (!nearest.empty()) refuse(entry.first, "unknown key; did you mean '" + nearest + "'?");
+    refuse(entry.first, "unknown key; there are " + (known.empty() ? "none here" : known));
   }
 }
 
