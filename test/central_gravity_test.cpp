@@ -149,10 +149,12 @@ TEST(CentralGravity, TooLongAStepIsRefusedWithTheLargestStableOne) {
                        {"central_gravity", "1000 rad/s", "largest stable step is 0.002 s"}));
 }
 
-TEST(CentralGravity, BodyAtTheCentreIsFrozenAndTheOthersFlyOn) {
+TEST(CentralGravity, BodyThatComesToTheCentreIsFrozenAndTheOthersFlyOn) {
+  // The pull is lost in the rounding of its velocity, so that a tick brings it to zero exactly.
   Simulator simulator(sceneFrom(
-      "{effects: {central_gravity: {mu: 1, j2: 0.1, equatorial_radius: 0.5}}, bodies: {at: "
-      "{point_mass: 1}, off: {point_mass: 1, position: [0, 0, 2]}}}"));
+      "{effects: {central_gravity: {mu: 1.0e-24, j2: 0.1, equatorial_radius: 0.5}}, bodies: {at: "
+      "{point_mass: 1, position: [0.02, 0, 0], linear_velocity: [-1, 0, 0]}, off: {point_mass: 1, "
+      "position: [0, 0, 2]}}}"));
   simulator.step();
   ASSERT_EQ(simulator.frozenBodies().size(), 1u);
   EXPECT_EQ(simulator.frozenBodies()[0].body, 0);

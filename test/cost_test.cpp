@@ -116,10 +116,10 @@ TEST(Cost, OfExactFlightIsLittleMoreThanOfEulersMethod) {
   const double kicked = forced.at("exact") / forced.at("semi_implicit");
   RecordProperty("coasting", std::to_string(coasting));
   RecordProperty("kicked", std::to_string(kicked));
-  // Measured: 1.11 to 1.25 on a Xeon; 1.70 on an EPYC of the Zen 4 kind, whose roots and quotients are
-  // no faster, but whose sums and products are.
+  // Measured: 1.11 to 1.25 on a Xeon; 1.70 on an EPYC of the Zen 4 kind, whose roots and quotients
+  // are no faster, but whose sums and products are.
   EXPECT_LE(coasting, 1.7 * 1.25);
-  EXPECT_LE(kicked, 3.5 * 1.25);    // measured: 3.0 to 3.3; promised 3.5
+  EXPECT_LE(kicked, 3.5 * 1.25);  // measured: 3.0 to 3.3; promised 3.5
 }
 
 }  // namespace

@@ -143,6 +143,39 @@ TEST(SwitchEffect, RefusesWhatIsNotThereAndChangesNothing) {
   EXPECT_NEAR(simulator.state(0).P_WB.z(), -2 * 9.8 * 0.02, 1e-15);
 }
 
+TEST(SwitchEffect, MayAlwaysEndWhatActs) {
+  // Spun up beyond what rk4 bears: that is no reason to hold on to gravity.
+  Simulator simulator(sceneFrom(scene("rk4", "gravity: {acceleration: [0, 0, -9.8]}")));
+  ImpulseInput spin;
+  spin.body = 1;
+  spin.applied = {Axes::kWorld, {{0, 0, 0}, {20, 0, 0}}, {0, 0, 0}};
+  simulator.apply(spin);
+  simulator.step();
+  ASSERT_TRUE(simulator.overTurnedBody());
+  EXPECT_NO_THROW(simulator.switchEffect("gravity", false));
+}
+
+TEST(SwitchEffect, IsRefusedUnderABudget) {
+  Simulator simulator(
+      sceneFrom("accuracy: {attitude_rad: 1.0e-3, over_s: 1}\n"
+                "effects: {damping: {angular: 0.1}}\nbodies: {a: {mass: 1, inertia: [1, 2, 2.5],"
+                " angular_velocity: [1, 2, 3]}}"));
+  const std::string why = refusal([&] { simulator.switchEffect("damping", false); });
+  EXPECT_NE(why.find("keeps its effects"), std::string::npos) << why;
+}
+
+TEST(SwitchEffect, KeepsTheBooksOfEnergy) {
+  Simulator simulator(
+      sceneFrom(scene("exact", "gravity: {acceleration: [0, 0, -9.8]}") + "energy_audit: true\n"));
+  for (int i = 0; i < 50; ++i) simulator.step();
+  simulator.switchEffect("gravity", false);
+  for (int i = 0; i < 50; ++i) simulator.step();
+  simulator.switchEffect("gravity", true);
+  EXPECT_NEAR(simulator.energy().unaccounted_J(), 0, 1e-10);  // of some 400 J: roundings
+  simulator.reset();
+  EXPECT_EQ(simulator.energy().unaccounted_J(), 0);
+}
+
 TEST(SwitchEffect, OfTheGyroscopicTermIsTheScenesParameter) {
   Simulator switched(sceneFrom(scene("exact", ""))),
       off(sceneFrom(scene("exact", "gyroscopic: false")));

@@ -128,6 +128,15 @@ TEST(SceneEffects, ThatDoNothingAreDropped) {
                 "gravity: false}}}")
           .effects.empty());
   EXPECT_TRUE(sceneFrom("{effects: {}, bodies: {a: {point_mass: 1}}}").effects.empty());
+  EXPECT_TRUE(sceneFrom("{effects: {damping: {linear: 1}}, bodies: {a: {point_mass: 1, "
+                        "damping: false}}}")
+                  .effects.empty());
+  EXPECT_TRUE(contains(refusal([] {
+                         sceneFrom(
+                             "{effects: {damping: {linaer: 1}}, bodies: {a: {point_mass: 1, "
+                             "damping: false}}}");
+                       }),
+                       {"effects.damping.linaer: unknown key", "'linear'"}));
 }
 
 TEST(SceneEffects, MayBeDeclinedWhereTheSceneHasNone) {

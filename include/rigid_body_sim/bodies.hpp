@@ -43,6 +43,17 @@ struct Bodies {
   Eigen::Index count() const { return mass.size(); }
   bool hasAddedMass() const { return inverse_mass_B.rows() > 0; }
 
+  /// Whether body i does: one that does not flies as if none did, to the bit.
+  bool carries(Eigen::Index i) const {
+    if (!hasAddedMass()) return false;
+    const double own = 1 / mass(i);
+    for (const int k : {0, 4, 8})
+      if (inverse_mass_B(i, k) != own) return true;
+    for (const int k : {1, 2, 5})
+      if (inverse_mass_B(i, k) != 0) return true;
+    return false;
+  }
+
   /// Of body i; the others have their own mass alone.
   void setInverseMass(Eigen::Index i, const Matrix3d& A_B) {
     if (!hasAddedMass()) {
@@ -57,7 +68,7 @@ struct Bodies {
 
   /// The velocity that body i has with the momentum P [kg m/s], at its present attitude.
   Vector3d velocityFor(Eigen::Index i, const Vector3d& P) const {
-    if (!hasAddedMass()) return P / mass(i);
+    if (!carries(i)) return P / mass(i);
     const Quaterniond q(Eigen::Vector4d(q_WB.row(i)));
     const Eigen::Matrix<double, 9, 1> A = inverse_mass_B.row(i);
     return q * (Eigen::Map<const Matrix3d>(A.data()) * (q.conjugate() * P));

@@ -67,6 +67,11 @@ class Effect {
   virtual void beforeDrift(Bodies&, const Instant& /*now*/, double /*h*/) const {}
   virtual void afterDrift(Bodies&, const Instant& /*now*/, double /*h*/) const {}
 
+  /// Whether the flow stands next to the drift, within all others: that of an effect that changes
+  /// what a drift is, as a turning frame does, and not what acts. The others see the bodies as they
+  /// are between the steps.
+  virtual bool hasInnermostFlow() const { return false; }
+
   /// Whether the flow turns bodies, and does not only change their momenta and positions.
   virtual bool hasTurningFlow() const { return false; }
 

@@ -91,11 +91,12 @@ struct OverTurnedBody {
 
 /// Where the energy of all bodies is, and what changed it. Work is counted if the scene asks for an
 /// audit; then `unaccounted` is what the integrator's error has made or lost, as long as no body is
-/// frozen and no effect was switched.
+/// frozen. Work of a flow is the kinetic energy that it takes: an error of the flow itself does not
+/// show.
 struct EnergyBalance {
   double kinetic_J = 0;
   double potential_J = 0;  ///< of the conservative effects
-  double start_J = 0;      ///< both, at the start
+  double start_J = 0;      ///< both, at the start, and what switched effects brought since
   double inputs_J = 0;     ///< work of wrenches and impulses since the start
   double effects_J = 0;    ///< work of effects that are not conservative; negative: dissipated
 
@@ -148,8 +149,8 @@ class Simulator {
 
   /// Ends or begins again what the scene lists below `effects`, or the gyroscopic term of those
   /// bodies that do not say of it themselves, from this tick on; until the next reset.
-  /// @throws std::invalid_argument for an effect that the scene does not have, or if a method does
-  /// not bear it; nothing is changed then.
+  /// @throws std::invalid_argument for an effect that the scene does not have, if a method does not
+  /// bear it, or if the scene has an accuracy budget; nothing is changed then.
   void switchEffect(const std::string& name, bool is_on);
 
   /// What switchEffect() takes.
@@ -217,7 +218,8 @@ class Simulator {
   };
   Switches at_start_;
   std::vector<EffectCount> counts_;  // of groups that are no more
-  double start_energy_J_ = 0;
+  double initial_energy_J_ = 0;
+  double start_energy_J_ = 0;  // and the potential energy that effects brought or took since
   double impulse_work_J_ = 0;
   std::unique_ptr<AccuracyWatch> watch_;  // null: no accuracy asked for
   // At a fixed address, as the groups point to it and a simulator may be moved.

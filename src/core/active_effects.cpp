@@ -12,7 +12,15 @@ void Wrenches::setZero(Eigen::Index count) {
 }
 
 void ActiveEffects::add(const Effect* effect) {
-  (effect->flowOrder() > 0 ? flows_ : kicks_).push_back({effect});
+  if (effect->flowOrder() == 0) {
+    kicks_.push_back({effect});
+    return;
+  }
+  const auto is_innermost = [](const Entry& entry) { return entry.effect->hasInnermostFlow(); };
+  const auto place = effect->hasInnermostFlow()
+                         ? flows_.end()
+                         : std::find_if(flows_.begin(), flows_.end(), is_innermost);
+  flows_.insert(place, {effect});
 }
 
 void ActiveEffects::remove(const Effect* effect) {

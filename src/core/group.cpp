@@ -127,24 +127,104 @@ std::string objection(const Method& method, const EffectList& effects) {
   return {};
 }
 
-std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects,
-                                 const Instant& now, double tick_s) {
+namespace {
+
+/// What several effects make of a body together: squares of frequencies add, and so do rates of
+/// decay.
+struct Sum {
+  double squares = 0;  // [1/s^2]
+  double decays = 0;   // [1/s]
+  std::string names;
+
+  void add(const Effect& effect, const Stiffness& stiff) {
+    if (stiff.oscillation == 0 && stiff.decay == 0) return;
+    squares += stiff.oscillation * stiff.oscillation;
+    decays += stiff.decay;
+    names += (names.empty() ? "'" : " and '") + effect.name() + "'";
+  }
+  double longest(const IntegratorRow& row) const {
+    return std::min(row.max_swing / std::sqrt(squares), row.max_decay / decays);
+  }
+};
+
+/// The effects that are forces for this method; flows bear any step.
+EffectList forcesFor(const IntegratorRow& row, const EffectList& effects) {
+  EffectList forces;
+  for (const auto& effect : effects)
+    if (!(row.has_drifts && effect->flowOrder() > 0)) forces.push_back(effect);
+  return forces;
+}
+
+/// Of all bodies at once; an upper bound, as each effect may have another stiffest one.
+Sum sumOf(const EffectList& forces, const Instant& now) {
+  Sum sum;
+  for (const auto& effect : forces) sum.add(*effect, effect->stiffness(now));
+  return sum;
+}
+
+/// Of body i alone; effects that cannot be divided count with their stiffest body.
+Sum sumOn(Eigen::Index i, const EffectList& forces, const Instant& now) {
+  const Bodies own = rowsOf(now.bodies(), {i});
+  const Instant alone(own, now.time_s());
+  Sum sum;
+  for (const auto& effect : forces) {
+    const auto part = effect->restrictedTo({i});
+    sum.add(*effect, part ? part->stiffness(alone) : effect->stiffness(now));
+  }
+  return sum;
+}
+
+std::string wordsFor(const Sum& sum, const Method& method, double tick_s, bool exact_bears_it) {
+  const double longest = sum.longest(integratorNamed(method.integrator));
+  const bool are_many = sum.names.find(" and ") != std::string::npos;
+  std::ostringstream why;
+  why << sum.names << (are_many ? " together are too stiff: it " : " is too stiff: it ");
+  if (sum.squares > 0) why << "swings at " << std::sqrt(sum.squares) << " rad/s";
+  if (sum.squares > 0 && sum.decays > 0) why << " and ";
+  if (sum.decays > 0) why << "slows down at " << sum.decays << " 1/s";
+  why << "; with '" << toText(method) << "' the largest stable step is "
+      << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest) << " substeps";
+  if (exact_bears_it) why << ", or exact, which bears any step";
+  return why.str();
+}
+
+}  // namespace
+
+std::optional<Fault> tooStiff(const Method& method, const EffectList& effects, const Instant& now,
+                              double tick_s) {
   const IntegratorRow& row = integratorNamed(method.integrator);
-  for (const auto& effect : effects) {
-    if (row.has_drifts && effect->flowOrder() > 0) continue;  // a flow bears any step
+  const EffectList forces = forcesFor(row, effects);
+  const auto isTooLong = [&](const Sum& sum) {
+    return tick_s > sum.longest(row) * method.substeps;
+  };
+  for (const auto& effect : forces) {
     const Stiffness stiff = effect->stiffness(now);
-    const double longest = std::min(row.max_swing / stiff.oscillation, row.max_decay / stiff.decay);
-    if (!(tick_s > longest * method.substeps)) continue;
-    std::ostringstream why;
-    why << "'" << effect->name() << "' is too stiff: it ";
-    if (stiff.oscillation > 0) why << "swings at " << stiff.oscillation << " rad/s";
-    if (stiff.oscillation > 0 && stiff.decay > 0) why << " and ";
-    if (stiff.decay > 0) why << "slows down at " << stiff.decay << " 1/s";
-    why << "; with '" << toText(method) << "' the largest stable step is "
-        << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest)
-        << " substeps";
-    if (effect->flowOrder() > 0) why << ", or exact, which bears any step";
-    return TooStiff{stiff.body, why.str()};
+    Sum alone;
+    alone.add(*effect, stiff);
+    if (isTooLong(alone))
+      return Fault{stiff.body, wordsFor(alone, method, tick_s, effect->flowOrder() > 0)};
+  }
+  if (!isTooLong(sumOf(forces, now))) return std::nullopt;
+  for (Eigen::Index i = 0; i < now.bodies().count(); ++i) {
+    const Sum sum = sumOn(i, forces, now);
+    if (isTooLong(sum)) return Fault{i, wordsFor(sum, method, tick_s, false)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> notFinite(const EffectList& effects, const Instant& now) {
+  for (const auto& effect : effects) {
+    Wrenches wrenches;
+    wrenches.setZero(now.bodies().count());
+    effect->addWrenches(now, wrenches);
+    for (Eigen::Index i = 0; i < now.bodies().count(); ++i)
+      if (!wrenches.f_W.row(i).allFinite() || !wrenches.t_Bcm_W.row(i).allFinite())
+        return Fault{i, "'" + effect->name() + "' acts on it with a wrench that is not finite"};
+    const Stiffness stiff = effect->stiffness(now);
+    if (!std::isfinite(stiff.oscillation) || !std::isfinite(stiff.decay) ||
+        !std::isfinite(effect->potentialEnergy(now)))
+      return Fault{stiff.body, "'" + effect->name() +
+                                   "' has an energy or a frequency there that is not finite"};
   }
   return std::nullopt;
 }
@@ -173,7 +253,8 @@ std::string caution(const Method& method, const EffectList& effects) {
   return {};
 }
 
-std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies) {
+std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,
+                                                double time_s) {
   requireEachBodyOnce(scene);
   requireGyroscopicTerm(scene);
   std::vector<std::string> cautions;
@@ -186,7 +267,10 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
       return "body '" + scene.bodies[part.bodies.empty() ? own_body : part.bodies[own_body]].name +
              "': ";
     };
-    if (const auto stiff = tooStiff(part.method, effects, Instant(own, 0), scene.step_s()))
+    const Instant now(own, time_s);
+    if (const auto wrong = notFinite(effects, now))
+      throw std::invalid_argument(nameOf(wrong->body) + wrong->why);
+    if (const auto stiff = tooStiff(part.method, effects, now, scene.step_s()))
       throw std::invalid_argument(nameOf(stiff->body) + stiff->why);
     const FastestBody fastest = fastestOf(own);
     why = objection(part.method, fastest.rate, scene.step_s());

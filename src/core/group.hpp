@@ -36,16 +36,19 @@ int orderUnder(const IntegratorRow& row, const Effect& effect);
 /// Why the method must not step bodies under these effects; empty if it may.
 std::string objection(const Method& method, const EffectList& effects);
 
-/// A body for which an effect is too stiff.
-struct TooStiff {
+/// A body on which effects act as they must not.
+struct Fault {
   Eigen::Index body;
-  std::string why;  ///< names the effect and the longest stable step
+  std::string why;  ///< names the effects, and the longest stable step if they are too stiff
 };
 
-/// Whether ticks of `tick_s` [s] are too long for the method to be stable under these effects, which
-/// are judged at `now`.
-std::optional<TooStiff> tooStiff(const Method& method, const EffectList& effects,
-                                 const Instant& now, double tick_s);
+/// Whether an effect's wrench, energy or stiffness is not finite at `now`.
+std::optional<Fault> notFinite(const EffectList& effects, const Instant& now);
+
+/// Whether ticks of `tick_s` [s] are too long for the method to be stable under these effects, each
+/// by itself and all of a body's together; judged at `now`.
+std::optional<Fault> tooStiff(const Method& method, const EffectList& effects, const Instant& now,
+                              double tick_s);
 
 /// Why the method must not step bodies that turn at `rate` [rad/s], in ticks of `tick_s` [s].
 std::string objection(const Method& method, double rate, double tick_s);
@@ -106,6 +109,7 @@ std::vector<Group> groupsOf(const Scene& scene);
 /// Cautions, one line each.
 /// @throws std::invalid_argument naming body or effect, if a method of the scene must not step its
 /// bodies, or a body has no method or several
-std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies);
+std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,
+                                                double time_s = 0);
 
 }  // namespace rigid_body_sim

@@ -59,6 +59,22 @@ void refuseUnknown(const EffectBlock& block) {
                           " on the dynamic linker's path (LD_LIBRARY_PATH)");
 }
 
+/// Of an effect that no body takes: its keys are read all the same, as if all took it, lest one
+/// that is misspelt goes unseen.
+void readInVain(const EffectRow& row, const EffectBlock& block, std::vector<SceneBody> bodies) {
+  for (SceneBody& body : bodies) {
+    body.is_point_mass = false;
+    body.mass_properties = solidSphere(1, 1);
+    body.added_mass_L = {};
+  }
+  EffectBlock vain{block.name, block.scene, {}, {}, bodies};
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    vain.members.push_back(
+        {static_cast<Eigen::Index>(i), Parameters({}, "bodies." + bodies[i].name)});
+  row.make(vain);
+  vain.scene.refuseUnknown();
+}
+
 /// The built-in effects, and those of plug-ins that the scene names.
 std::vector<EffectRow> rowsFor(const Parameters& effects) {
   std::vector<EffectRow> rows = effectRegistry();
@@ -110,10 +126,13 @@ void readEffects(const Parameters& parameters, const std::vector<Parameters>& bo
   for (const EffectRow& row : rowsFor(effects)) {
     EffectBlock block = blockOf(row, effects, bodies, scene);
     if (!effects.has(row.name)) continue;
-    if (row.layout == BlockLayout::kMap && block.members.empty())
+    const bool is_in_vain = row.layout == BlockLayout::kMap && block.members.empty();
+    if (is_in_vain) {
       block.why_nothing = "it acts on no body";
+      readInVain(row, block, scene.bodies);
+    }
     const EffectList made = row.make(block);
-    refuseUnknown(block);
+    if (!is_in_vain) refuseUnknown(block);
     if (made.empty()) scene.elided.push_back(row.name + ": " + block.why_nothing);
     scene.effects.insert(scene.effects.end(), made.begin(), made.end());
   }

@@ -115,7 +115,7 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
     scene_.warnings.push_back(std::move(warning));
   at_start_ = {scene_.effects, scene_.gyroscopic};
   makeGroups();
-  start_energy_J_ = energy().kinetic_J + energy().potential_J;
+  start_energy_J_ = initial_energy_J_ = energy().kinetic_J + energy().potential_J;
 }
 
 Simulator::~Simulator() = default;
@@ -291,6 +291,7 @@ void Simulator::reset() {
   scene_.effects = at_start_.effects;
   scene_.gyroscopic = at_start_.gyroscopic;
   makeGroups();
+  start_energy_J_ = initial_energy_J_;
   counts_.clear();
   impulse_work_J_ = 0;
   pending_wrenches_.clear();
@@ -309,6 +310,10 @@ std::vector<std::string> Simulator::effectNames() const {
 }
 
 void Simulator::switchEffect(const std::string& name, bool is_on) {
+  if (watch_)
+    throw std::invalid_argument(
+        "the methods were chosen for these effects, to keep the accuracy; a scene with a budget "
+        "keeps its effects");
   const std::vector<std::string> names = effectNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     std::string known;
@@ -322,11 +327,15 @@ void Simulator::switchEffect(const std::string& name, bool is_on) {
     const auto& now = scene_.effects;
     const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
     if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name + "' cannot end: the momenta of the bodies contain it");
+      throw std::invalid_argument("'" + name +
+                                  "' cannot end: the momenta of the bodies contain it");
     if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
   }
-  requireSuitableMethods(changed, bodies_);
+  // What ends makes nothing harder, but that some effects need the gyroscopic term.
+  if (is_on || name == "gyroscopic") requireSuitableMethods(changed, bodies_, time_s());
+  const double before = energy().potential_J;
   scene_ = std::move(changed);
+  start_energy_J_ += energy().potential_J - before;  // it comes and goes with the effect
   makeGroups();
 }
 

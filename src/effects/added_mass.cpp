@@ -20,9 +20,10 @@ struct Carried {
 ///
 ///   P' = f,   L' = t - v x P,   v = M^-1 P.
 ///
-/// Momentum and tensor contain the fluid's part, so that nothing here is divided by the body's own
-/// mass: however light the body, the mass matrix was inverted once. What is left for this effect is
-/// that methods drift with P/m, and the moment -v x P of Munk (1924), which turns a body broadside.
+/// Momentum and tensor contain the fluid's part. What is left for this effect is that methods drift
+/// with P/m, and the moment -v x P of Munk (1924), which turns a body broadside. The drift's way
+/// and the flow's cancel but for h v: of a body that is n times lighter than the fluid it carries,
+/// positions are rounded n times as coarsely.
 ///
 /// Its flow is that of the energy P.M^-1 P/2 - P.P/2m: P and the attitude do not change, so that it
 /// is exact, p += h (v - P/m) and L -= h v x P.
@@ -36,6 +37,7 @@ class AddedMassEffect : public Effect {
   bool isConservative() const override { return true; }  // the kinetic energy contains it
   bool isSwitchable() const override { return false; }
   bool hasReversibleFlow() const override { return true; }
+  bool hasInnermostFlow() const override { return true; }
 
   /// Without a moment it commutes with the drift: nothing is split.
   int flowOrder() const override {

@@ -84,7 +84,7 @@ class Drag : public Effect {
     const auto air = air_->at(time_s);
     if (const Shape* shape = members_.commonData();
         shape && shape->rotational_drag == 0 && !bodies.hasAddedMass())
-      return brakeAlike(bodies, air, 0.5 * h * shape->drag_area);
+      return brakeAlike(bodies, air, h);
     for (const auto& [i, shape] : members_) {
       const Vector3d p = bodies.p_WBcm.row(i);
       const double c_h = 0.5 * air.density(p) * h;
@@ -96,26 +96,22 @@ class Drag : public Effect {
     }
   }
 
-  /// As brakedMomentum(), of bodies that differ in nothing but their mass.
+  /// Of bodies that differ in nothing but their mass: a loop that becomes SIMD.
   template <class AirNow>
-  void brakeAlike(Bodies& bodies, const AirNow& air, double h_area) const {
+  void brakeAlike(Bodies& bodies, const AirNow& air, double h) const {
     const auto P = pointersTo(bodies.P_WB);
     const auto p = pointersTo(std::as_const(bodies.p_WBcm));
     const double* mass = bodies.mass.data();
-    members_.forEach([=, &air](Eigen::Index i, const Shape&) {
-      const double m = mass[i];
+    members_.forEach([=, &air](Eigen::Index i, const Shape& shape) {
       const Vector3d p_W = at(p, i).vector();
-      const Triple at_rest = m * Triple(air.wind(p_W));
-      const Triple through = at(P, i) - at_rest;
-      const double c_h = air.density(p_W) * h_area;
-      const double left = quadraticDecay(c_h * (std::sqrt(dot(through, through)) / m) / m);
-      set(P, i, at_rest + left * through);
+      const double c_h = 0.5 * air.density(p_W) * h;
+      set(P, i, brakedMomentum(at(P, i), mass[i], Triple(air.wind(p_W)), c_h * shape.drag_area));
     });
   }
 
   static void brakeMomentum(Bodies& bodies, Eigen::Index i, const Vector3d& wind_W, double c_h) {
     const Vector3d P = bodies.P_WB.row(i);
-    if (bodies.hasAddedMass()) {
+    if (bodies.carries(i)) {
       const Matrix3d A = inverseMass(bodies, i);
       const Quaterniond q(Eigen::Vector4d(bodies.q_WB.row(i)));
       bodies.P_WB.row(i) = isNumber(A) ? brakedMomentum(P, 1 / A(0, 0), wind_W, c_h)

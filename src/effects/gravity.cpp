@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <stdexcept>
+
 #include "effects/makers.hpp"
 #include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/members.hpp"
@@ -43,6 +46,9 @@ class UniformGravity : public Effect {
 std::shared_ptr<const Effect> uniformGravity(const Vector3d& g_W,
                                              std::vector<Eigen::Index> bodies) {
   std::sort(bodies.begin(), bodies.end());
+  if (std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end() ||
+      (!bodies.empty() && bodies.front() < 0))
+    throw std::invalid_argument("gravity: a body is there twice, or has a negative index");
   Members<NoData> members;
   for (const Eigen::Index i : bodies) members.add(i, {});
   return std::make_shared<UniformGravity>(g_W, std::move(members));

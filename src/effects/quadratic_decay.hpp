@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "rigid_body_sim/bodies.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 
 // Motions that quadratic drag slows down, u' = -c |u| A u: u is a velocity through the air, A the
 // inverse mass or inertia, positive definite. All factors lie between 0 and 1 whatever c: no step
@@ -25,11 +25,16 @@ inline double decayPath(const Vector3d& u, double speed, const Vector3d& A, doub
 }
 
 /// Momentum after h of the drag -c |u| u, u = P / m - wind. Exact.
+inline Triple brakedMomentum(const Triple& P_W, double mass, const Triple& wind_W, double c_h) {
+  const Triple at_rest = mass * wind_W;  // in the air
+  const Triple through_air = P_W - at_rest;
+  const double speed = std::sqrt(dot(through_air, through_air)) / mass;
+  return at_rest + quadraticDecay(c_h * speed / mass) * through_air;
+}
+
 inline Vector3d brakedMomentum(const Vector3d& P_W, double mass, const Vector3d& wind_W,
                                double c_h) {
-  const Vector3d at_rest = mass * wind_W;  // in the air
-  const Vector3d through_air = P_W - at_rest;
-  return at_rest + quadraticDecay(c_h * (through_air.norm() / mass) / mass) * through_air;
+  return brakedMomentum(Triple(P_W), mass, Triple(wind_W), c_h).vector();
 }
 
 /// The same of a body with the inverse mass matrix A_B. Second order.

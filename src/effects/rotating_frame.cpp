@@ -46,6 +46,7 @@ class RotatingFrame : public Effect {
   int flowOrder() const override { return kExact; }
   bool hasReversibleFlow() const override { return true; }
   bool hasTurningFlow() const override { return true; }
+  bool hasInnermostFlow() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     const Bodies& bodies = now.bodies();

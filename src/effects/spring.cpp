@@ -290,7 +290,7 @@ class SpringDamping : public SpringEffect {
 
   /// M^-1 P
   static Triple velocityFor(const Triple& P_W, const Bodies& bodies, Eigen::Index i) {
-    if (bodies.hasAddedMass()) return Triple(bodies.velocityFor(i, P_W.vector()));
+    if (bodies.carries(i)) return Triple(bodies.velocityFor(i, P_W.vector()));
     return (1 / bodies.mass(i)) * P_W;
   }
 

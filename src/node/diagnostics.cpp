@@ -41,7 +41,10 @@ void Diagnostics::reportEffects(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.addf("work since the start",
               "%.9g J of inputs, %.9g J of effects that are not conservative", energy.inputs_J,
               energy.effects_J);
-  status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
+  if (simulator_.frozenBodies().empty())
+    status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
+  else
+    status.add("energy unaccounted for", "not known: a body is frozen");
 }
 
 void Diagnostics::reportPace(diagnostic_updater::DiagnosticStatusWrapper& status) {

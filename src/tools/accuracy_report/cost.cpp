@@ -117,6 +117,7 @@ double evaluationsATick(const Scene& scene, const Method& method) {
   Scene counted = withMethod(scene, method);
   counted.effects.push_back(std::make_shared<Counter>(count));
   Simulator simulator(counted);
+  count = 0;  // at the start the scene was looked at
   for (Tick i = 0; i < kTicks; ++i) simulator.step();
   return static_cast<double>(count) / kTicks;
 }
