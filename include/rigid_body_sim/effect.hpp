@@ -47,7 +47,8 @@ class Effect {
   virtual void addWrenches(const Instant& now, Wrenches& wrenches) const = 0;
 
   /// Whether its wrenches depend on velocities, as drag and damping do. Some integrators have a
-  /// lower order then, or refuse it, unless it has a flow.
+  /// lower order then, or refuse it, unless it has a flow; and to an effect that says no, rk4 does
+  /// not tell the angular momenta within its steps: they are no numbers there.
   virtual bool dependsOnVelocity() const { return false; }
 
   /// Whether all its work comes out of its potential energy.

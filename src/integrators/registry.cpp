@@ -11,8 +11,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 const std::vector<IntegratorRow>& integrators() {
   static const std::vector<IntegratorRow> rows = {
-      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0.05, 2, 1, 1.5, 1.6,
-       true,
+      {"explicit_euler_velocity", 1, 1, true, false, false, false, false, kInf, 0.05, 2, 1, 1.5,
+       1.6, true,
        "explicit Euler on (v, w), the founding text's first method; a tumbling body loses energy "
        "until it spins about one axis",
        makeExplicitEulerVelocity},
