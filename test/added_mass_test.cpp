@@ -1,4 +1,4 @@
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 #include "flown_scenes.hpp"
 
 namespace rigid_body_sim {

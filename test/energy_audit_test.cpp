@@ -2,7 +2,7 @@
 // conservative stays what it was at the start, to the order of the integrator.
 #include <cmath>
 
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 #include "effect_blocks.hpp"
 #include "generic.hpp"
 

@@ -247,8 +247,7 @@ RBS_INLINE void storePart(double* to, S x, int count) {
   if constexpr (kWidth<S> == 8) return _mm512_mask_storeu_pd(to, (1u << count) - 1, x.lanes);
 #endif
 #if defined(__AVX2__)
-  if constexpr (kWidth<S> == 4)
-    return _mm256_maskstore_pd(to, (__m256i)firstLanes(count), x.lanes);
+  if constexpr (kWidth<S> == 4) return _mm256_maskstore_pd(to, (__m256i)firstLanes(count), x.lanes);
 #endif
   for (int i = 0; i < count; ++i) to[i] = x.lanes[i];
 }

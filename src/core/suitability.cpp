@@ -1,4 +1,4 @@
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,19 @@ void requireEachBodyOnce(const Scene& scene) {
                                   std::to_string(counts[i]) + " methods; it takes one");
 }
 
-/// The methods of a scene; no bodies means all of them.
+/// Of effects that are wrong for bodies without the gyroscopic term.
+void requireGyroscopicTerm(const Scene& scene) {
+  for (const auto& effect : scene.effects) {
+    if (!effect->needsGyroscopicTerm()) continue;
+    const std::vector<Eigen::Index> off = ungyroscopicBodies(scene);
+    if (!off.empty())
+      throw std::invalid_argument("'" + effect->name() + "' needs the gyroscopic term, and body '" +
+                                  scene.bodies[off.front()].name + "' has none");
+  }
+}
+
+}  // namespace
+
 std::vector<MethodOfBodies> methodsOf(const Scene& scene) {
   if (scene.methods.empty()) return {{{}, methodOf(scene)}};
   if (scene.methods.size() == 1) return {{{}, scene.methods[0].method}};
@@ -43,19 +55,6 @@ EffectList effectsOn(const MethodOfBodies& part, const Scene& scene) {
         "an effect couples the bodies of the scene: they all take the same method");
   return *effects;
 }
-
-/// Of effects that are wrong for bodies without the gyroscopic term.
-void requireGyroscopicTerm(const Scene& scene) {
-  for (const auto& effect : scene.effects) {
-    if (!effect->needsGyroscopicTerm()) continue;
-    const std::vector<Eigen::Index> off = ungyroscopicBodies(scene);
-    if (!off.empty())
-      throw std::invalid_argument("'" + effect->name() + "' needs the gyroscopic term, and body '" +
-                                  scene.bodies[off.front()].name + "' has none");
-  }
-}
-
-}  // namespace
 
 std::string toText(const Method& method) {
   if (method.substeps == 1) return method.integrator;
@@ -279,73 +278,6 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
     if (cautions.back().empty()) cautions.pop_back();
   }
   return cautions;
-}
-
-std::vector<Group> groupsOf(const Scene& scene) {
-  std::vector<Group> groups;
-  for (const MethodOfBodies& part : methodsOf(scene))
-    groups.emplace_back(
-        part.method,
-        part.bodies.empty() ? ungyroscopicBodies(scene) : ungyroscopicBodies(scene, part.bodies),
-        effectsOn(part, scene), part.bodies);
-  return groups;
-}
-
-Group::Group(const Method& method, std::vector<Eigen::Index> ungyroscopic, EffectList effects,
-             std::vector<Eigen::Index> bodies)
-    : method_(method),
-      indices_(std::move(bodies)),
-      effects_(std::move(effects)),
-      integrator_(
-          integratorNamed(method.integrator).make({std::move(ungyroscopic), method.tolerance})) {
-  for (const auto& effect : effects_) active_.add(effect.get());
-}
-
-void Group::hold(const AppliedWrenches& applied) {
-  if (applied_) active_.remove(applied_);
-  own_applied_ = indices_.empty() ? nullptr : applied.restrictedTo(indices_);
-  applied_ = own_applied_ ? own_applied_.get() : &applied;
-  if (applied_->bodyCount() == 0) applied_ = nullptr;
-  if (applied_) active_.add(applied_);
-  disturb();
-}
-
-/// Free bodies that are at rest stay there until somebody moves them; so nothing is computed.
-bool Group::isAtRest(const Bodies& all) {
-  if (!active_.empty()) return false;
-  if (motion_ != Motion::kUnknown) return motion_ == Motion::kAtRest;
-  const auto rests = [&](Eigen::Index i) {
-    return all.P_WB.row(i).isZero(0) && all.L_WBcm_W.row(i).isZero(0);
-  };
-  bool all_rest = indices_.empty() ? all.P_WB.isZero(0) && all.L_WBcm_W.isZero(0)
-                                   : std::all_of(indices_.begin(), indices_.end(), rests);
-  motion_ = all_rest ? Motion::kAtRest : Motion::kMoves;
-  return all_rest;
-}
-
-void Group::step(Bodies& all, double start_s, double tick_s) {
-  if (isAtRest(all)) return;
-  if (indices_.empty()) return stepInPlace(all, start_s, tick_s);
-  gather(all);
-  stepInPlace(own_, start_s, tick_s);
-  scatter(all);
-}
-
-void Group::stepInPlace(Bodies& bodies, double start_s, double tick_s) {
-  const double step_s = tick_s / method_.substeps;
-  for (int i = 0; i < method_.substeps; ++i)
-    integrator_->step(bodies, active_, start_s + i * step_s, step_s);
-}
-
-void Group::gather(const Bodies& all) {
-  if (own_.count() == 0) own_ = rowsOf(all, indices_);
-  for (std::size_t k = 0; k < indices_.size(); ++k)
-    own_.setState(static_cast<Eigen::Index>(k), all.state(indices_[k]));
-}
-
-void Group::scatter(Bodies& all) const {
-  for (std::size_t k = 0; k < indices_.size(); ++k)
-    all.setState(indices_[k], own_.state(static_cast<Eigen::Index>(k)));
 }
 
 }  // namespace rigid_body_sim
