@@ -24,6 +24,7 @@ struct Stiffness {
   double oscillation = 0;  ///< [rad/s]
   double decay = 0;        ///< [1/s]
   Eigen::Index body = 0;   ///< the stiffest one
+  bool is_linear = false;  ///< swings of any size have this frequency
 };
 
 /// A cause of forces and torques on some of the bodies. Effects do not change once made.
@@ -82,8 +83,12 @@ class Effect {
   /// Whether it can end and begin again; what the state's own meaning depends on cannot.
   virtual bool isSwitchable() const { return true; }
 
-  /// Zero if its wrenches cannot make any step unstable.
+  /// Zero if its wrenches cannot make any step unstable. Of an oscillation, the frequency of the
+  /// smallest swing.
   virtual Stiffness stiffness(const Instant&) const { return {}; }
+
+  /// Whether a flow, if it has one, is stable at any step.
+  virtual bool hasStableFlow() const { return flowOrder() > 0; }
 
   /// Time of an evaluation on one body, in torque-free steps of `semi_implicit`: what the choice of
   /// a method for an accuracy budget reckons with.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rigid_body_sim/accuracy.hpp"
+#include "rigid_body_sim/column_pointers.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/scene.hpp"
 #include "rigid_body_sim/wrench.hpp"
@@ -34,9 +35,6 @@ struct WrenchInput {
   Origin origin;
 };
 
-/// Whether `input` ends `old` when both act.
-bool isReplacedBy(const WrenchInput& old, const WrenchInput& input);
-
 /// Momentum given at once, at the beginning of a tick.
 struct ImpulseInput {
   Eigen::Index body = 0;
@@ -54,6 +52,9 @@ bool isBefore(const Input& a, const Input& b) {
   return key(a) < key(b);
 }
 
+/// Adds `begun` to inputs that are ordered by isBefore(), without those that are replaced then.
+void settle(std::vector<WrenchInput>& held, std::vector<WrenchInput> begun);
+
 /// A body that was stopped because its state would have become infinite or not a number.
 struct FrozenBody {
   Eigen::Index body;
@@ -64,21 +65,31 @@ struct FrozenBody {
 class AppliedWrenches : public Effect {
  public:
   std::string name() const override { return "applied"; }
-  std::size_t bodyCount() const override { return held_.size(); }
+  std::size_t bodyCount() const override { return acting_.size(); }
   void addWrenches(const Instant& now, Wrenches& wrenches) const override;
   std::shared_ptr<const Effect> restrictedTo(
       const std::vector<Eigen::Index>& bodies) const override;
 
   /// Ends what replaces and time end, and takes up `begun`. Returns those that ran out at `tick`.
   std::vector<WrenchInput> update(std::vector<WrenchInput> begun, Tick tick);
-  void clear() { held_.clear(); }
+  void clear();
   const std::vector<WrenchInput>& held() const { return held_; }
 
  private:
-  std::vector<WrenchInput> held_;  // ordered by body, source, sequence, entry
+  /// What of an input matters while it acts.
+  struct Acting {
+    Eigen::Index body;
+    Axes axes;
+    Triple f, t, p_BcmQ_B;
+  };
+
+  std::vector<WrenchInput>
+      held_;  // ordered by body, source, sequence, entry; none of a restricted one
+  std::vector<Acting> acting_;  // in the same order
 };
 
 class AccuracyWatch;
+class Crew;
 class Snapshot;
 struct Placed;
 
@@ -88,6 +99,12 @@ struct OverTurnedBody {
   Method method;
   double turn;      ///< [rad] a step
   double max_turn;  ///< what the method bears
+};
+
+/// A body on which something acts that has become too stiff for the step.
+struct StiffBody {
+  Eigen::Index body;
+  std::string why;  ///< names the effect, and the largest stable step
 };
 
 /// Where the energy of all bodies is, and what changed it. Work is counted if the scene asks for an
@@ -203,6 +220,10 @@ class Simulator {
   /// bodies: not for every tick.
   std::optional<OverTurnedBody> overTurnedBody() const;
 
+  /// One on which an effect by itself has become too stiff since the start, as by a close
+  /// encounter, if any. Looks at all bodies and effects: not for every tick.
+  std::optional<StiffBody> stiffBody() const;
+
  private:
   /// Where the state of a body is.
   struct Place {
@@ -214,6 +235,7 @@ class Simulator {
   void makeBlocks();
   void setState(Eigen::Index body, const BodyState& state);
   void replanIfDue();
+  void settlePending();
   void latchInputs();
   void latchWrenches();
   void holdWrenches();
@@ -230,8 +252,8 @@ class Simulator {
   mutable bool is_up_to_date_ = true;
   Tick tick_ = 0;
   std::vector<Placed> blocks_;
-  std::vector<Place> places_;         // of each body
-  std::unique_ptr<Snapshot> before_;  // memory for blocks to work in
+  std::vector<Place> places_;   // of each body
+  std::unique_ptr<Crew> crew_;  // null: this thread alone
   struct Switches {
     EffectList effects;
     Gyroscopic gyroscopic = Gyroscopic::kOn;
@@ -244,6 +266,7 @@ class Simulator {
   std::unique_ptr<AccuracyWatch> watch_;  // null: no accuracy asked for
   std::shared_ptr<AppliedWrenches> applied_ = std::make_shared<AppliedWrenches>();
   std::vector<WrenchInput> pending_wrenches_;
+  std::size_t settled_ = 0;  // how many were left of them when they were settled last
   std::vector<ImpulseInput> pending_impulses_;
   std::vector<std::pair<Eigen::Index, BodyState>> before_impulses_;  // in this tick
   std::vector<WrenchInput> ended_;

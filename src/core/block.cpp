@@ -121,6 +121,10 @@ void Block::advance(Tick first, Tick ticks, double tick_s, Snapshot& before) {
   }
 }
 
+std::optional<Fault> Block::tooStiff(double time_s, double tick_s) const {
+  return oneTooStiff(method_, effects_, Instant(bodies_, time_s), tick_s);
+}
+
 void Block::freezeWhatIsNotFinite(Tick tick, const Snapshot& before) {
   for (const FrozenBody& frozen : frozen_) before.restore(frozen.body, bodies_);
   if (batch::kernels().areFinite(columnsOf(bodies_), rigid_body_sim::allOf(bodies_))) return;

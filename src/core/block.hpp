@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/suitability.hpp"
 #include "rigid_body_sim/integrator.hpp"
 #include "rigid_body_sim/method.hpp"
 #include "rigid_body_sim/simulator.hpp"
@@ -53,6 +54,9 @@ class Block {
 
   /// Its bodies that do, by their places here, in the order of the ticks.
   const std::vector<FrozenBody>& frozen() const { return frozen_; }
+
+  /// Whether ticks of `tick_s` [s] are too long by now for one of the effects by itself.
+  std::optional<Fault> tooStiff(double time_s, double tick_s) const;
 
   /// What the effects have done since the block was made.
   std::vector<EffectCount> counts() const { return active_.counts(); }

@@ -9,38 +9,15 @@
 #include "core/accuracy_plan.hpp"
 #include "core/accuracy_watch.hpp"
 #include "core/block.hpp"
+#include "core/crew.hpp"
 #include "core/suitability.hpp"
 #include "rigid_body_sim/conserved.hpp"
 
 namespace rigid_body_sim {
 namespace {
 
-bool isFinite(const AppliedWrench& applied) {
-  return applied.wrench.f_F.allFinite() && applied.wrench.t_Q_F.allFinite() &&
-         applied.p_BcmQ_B.allFinite();
-}
-
-template <class Input>
-void check(const Input& input, const Scene& scene) {
-  if (input.body < 0 || input.body >= static_cast<Eigen::Index>(scene.bodies.size()))
-    throw std::invalid_argument("there is no body " + std::to_string(input.body));
-  if (!isFinite(input.applied)) throw std::invalid_argument("input is not finite");
-  const SceneBody& body = scene.bodies[input.body];
-  const AppliedWrench& applied = input.applied;
-  if (body.is_point_mass && !(applied.wrench.t_Q_F.isZero(0) && applied.p_BcmQ_B.isZero(0)))
-    throw std::invalid_argument("a torque on the point mass '" + body.name + "'");
-}
-
-/// Moves the inputs that are due at `tick` out of `pending`.
-template <class Input>
-std::vector<Input> takeDue(std::vector<Input>& pending, Tick tick) {
-  const auto first_due = std::stable_partition(
-      pending.begin(), pending.end(), [tick](const Input& input) { return input.start > tick; });
-  std::vector<Input> due(std::make_move_iterator(first_due),
-                         std::make_move_iterator(pending.end()));
-  pending.erase(first_due, pending.end());
-  return due;
-}
+/// From where on a second thread is worth waking.
+constexpr Eigen::Index kManyBodies = 2000;
 
 void copyState(const Bodies& from, Bodies& to) {
   to.p_WBcm = from.p_WBcm;
@@ -87,7 +64,9 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   initial_.mass.setOnes();
   for (const SceneBody& body : scene_.bodies) addBody(body);
   bodies_ = initial_;
-  before_ = std::make_unique<Snapshot>();
+  const bool are_many = initial_.count() >= kManyBodies;
+  if (scene_.threads > 1 || (scene_.threads == 0 && are_many))
+    crew_ = std::make_unique<Crew>(scene_.threads);
   if (scene_.accuracy) {
     Bill bill = planFrom({scene_, bodies_, *applied_, tick_, shall_end_}, *scene_.accuracy,
                          WithoutAMethod::kRefuse);
@@ -166,84 +145,6 @@ void Simulator::setState(Eigen::Index body, const BodyState& state) {
   is_up_to_date_ = false;
 }
 
-void Simulator::apply(WrenchInput input) {
-  check(input, scene_);
-  if (input.ticks < 0) throw std::invalid_argument("a negative number of ticks");
-  input.start = std::max(input.start, tick_);
-  if (input.replaces && input.start == tick_) {
-    // What it will replace at once need not wait: a sender that goes on while the simulation is
-    // paused keeps one input, not all.
-    const auto is_replaced = [&](const WrenchInput& old) {
-      return old.start <= tick_ && old.origin.sequence < input.origin.sequence &&
-             isReplacedBy(old, input);
-    };
-    pending_wrenches_.erase(
-        std::remove_if(pending_wrenches_.begin(), pending_wrenches_.end(), is_replaced),
-        pending_wrenches_.end());
-  }
-  pending_wrenches_.push_back(std::move(input));
-}
-
-void Simulator::apply(ImpulseInput input) {
-  check(input, scene_);
-  input.start = std::max(input.start, tick_);
-  pending_impulses_.push_back(std::move(input));
-}
-
-void Simulator::latchInputs() {
-  if (!pending_wrenches_.empty() || applied_->bodyCount() > 0) latchWrenches();
-  before_impulses_.clear();
-  if (!pending_impulses_.empty()) giveImpulses(takeDue(pending_impulses_, tick_));
-}
-
-void Simulator::latchWrenches() {
-  std::vector<WrenchInput> begun = takeDue(pending_wrenches_, tick_);
-  const bool may_change = !begun.empty();
-  if (watch_)
-    for (const WrenchInput& input : begun) watch_->wrench(input.body, bodies(), tick_);
-  std::vector<WrenchInput> ended = applied_->update(std::move(begun), tick_);
-  if (may_change || !ended.empty()) holdWrenches();
-  std::move(ended.begin(), ended.end(), std::back_inserter(ended_));
-}
-
-void Simulator::holdWrenches() {
-  for (Placed& one : blocks_) {
-    const bool is_whole = blocks_.size() == 1 && one.indices.front() == 0;
-    std::shared_ptr<const Effect> own = is_whole ? applied_ : applied_->restrictedTo(one.indices);
-    one.block.hold(own->bodyCount() > 0 ? std::move(own) : nullptr);
-  }
-}
-
-void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
-  std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
-  for (const ImpulseInput& input : impulses) {
-    if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
-    const auto is_it = [&](const FrozenBody& frozen) { return frozen.body == input.body; };
-    if (std::any_of(frozen_.begin(), frozen_.end(), is_it)) continue;
-    if (watch_) watch_->impulse(input, bodies(), tick_);
-    BodyState body = state(input.body);
-    if (before_impulses_.empty() || before_impulses_.back().first != input.body)
-      before_impulses_.emplace_back(input.body, body);
-    const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
-    body.P_WB += impulse.f_F;
-    body.L_WBcm_W += impulse.t_Q_F;
-    const double before = scene_.energy_audit ? kineticEnergy(bodies(), input.body) : 0;
-    setState(input.body, body);
-    if (scene_.energy_audit) impulse_work_J_ += kineticEnergy(bodies(), input.body) - before;
-  }
-}
-
-/// From this tick on, at most `most`, at least one.
-Tick Simulator::ticksWithoutInput(Tick most) const {
-  if (watch_) return 1;
-  Tick next = tick_ + most;
-  for (const WrenchInput& input : pending_wrenches_) next = std::min(next, input.start);
-  for (const ImpulseInput& input : pending_impulses_) next = std::min(next, input.start);
-  for (const WrenchInput& input : applied_->held())
-    if (input.ticks > 0) next = std::min(next, input.start + input.ticks);
-  return std::max<Tick>(next - tick_, 1);
-}
-
 void Simulator::advance(Tick ticks) {
   ended_.clear();
   for (Tick done = 0, some; done < ticks; done += some) {
@@ -261,7 +162,16 @@ void Simulator::advance(Tick ticks) {
 }
 
 void Simulator::advanceBlocks(Tick ticks) {
-  for (Placed& one : blocks_) one.block.advance(tick_, ticks, scene_.step_s(), *before_);
+  const auto advance = [&](std::size_t first, std::size_t last) {
+    thread_local Snapshot before;
+    for (std::size_t b = first; b < last; ++b)
+      blocks_[b].block.advance(tick_, ticks, scene_.step_s(), before);
+  };
+  constexpr std::size_t kLeast = 4;  // blocks: some 5 us of work
+  if (crew_ && blocks_.size() > kLeast)
+    crew_->share(blocks_.size(), kLeast, advance);
+  else
+    advance(0, blocks_.size());
   is_up_to_date_ = false;
 }
 
@@ -402,6 +312,13 @@ std::optional<OverTurnedBody> Simulator::overTurnedBody() const {
       worst = {one.indices[fastest.body], method, turn, max_turn};
   }
   return worst;
+}
+
+std::optional<StiffBody> Simulator::stiffBody() const {
+  for (const Placed& one : blocks_)
+    if (const auto fault = one.block.tooStiff(time_s(), scene_.step_s()))
+      return StiffBody{one.indices[fault->body], fault->why};
+  return std::nullopt;
 }
 
 LinkMotion Simulator::linkMotion(Eigen::Index body) const {

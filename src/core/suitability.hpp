@@ -45,8 +45,12 @@ struct Fault {
 /// Whether an effect's wrench, energy or stiffness is not finite at `now`.
 std::optional<Fault> notFinite(const EffectList& effects, const Instant& now);
 
-/// Whether ticks of `tick_s` [s] are too long for the method to be stable under these effects, each
-/// by itself and all of a body's together; judged at `now`.
+/// Whether ticks of `tick_s` [s] are too long for the method to be stable under one of these
+/// effects by itself; judged at `now`.
+std::optional<Fault> oneTooStiff(const Method& method, const EffectList& effects,
+                                 const Instant& now, double tick_s);
+
+/// The same of each by itself and of all of a body's together.
 std::optional<Fault> tooStiff(const Method& method, const EffectList& effects, const Instant& now,
                               double tick_s);
 
@@ -55,6 +59,10 @@ std::string objection(const Method& method, double rate, double tick_s);
 
 /// What a user of the method should know of it under these effects; empty if nothing.
 std::string caution(const Method& method, const EffectList& effects);
+
+/// A body that friction stops within a step: what else acts on it moves it too slowly then.
+std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
+                                   const Instant& now, double tick_s);
 
 /// Effects on the bodies of a part of the scene, no bodies meaning all.
 /// @throws std::invalid_argument if an effect cannot be divided among the parts

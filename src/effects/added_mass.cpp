@@ -38,6 +38,7 @@ class AddedMassEffect : public Effect {
   bool isSwitchable() const override { return false; }
   bool hasReversibleFlow() const override { return true; }
   bool hasInnermostFlow() const override { return true; }
+  bool hasStableFlow() const override { return false; }  // Munk's moment turns nothing: it kicks
 
   /// Without a moment it commutes with the drift: nothing is split.
   int flowOrder() const override {

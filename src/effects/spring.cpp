@@ -164,7 +164,9 @@ class ElasticSprings : public SpringEffect {
   Stiffness stiffness(const Instant& now) const override {
     const Bodies& bodies = now.bodies();
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(bodies.count());
+    bool is_linear = true;
     for (const Spring& spring : springs()) {
+      is_linear = is_linear && isLinear(spring);
       const Line line = lineOf(spring, now);
       const double own =
           spring.stiffness * (lightest(spring.ends[0], bodies) + lightest(spring.ends[1], bodies));
@@ -178,7 +180,7 @@ class ElasticSprings : public SpringEffect {
     }
     Eigen::Index stiffest = 0;
     const double square = squares.maxCoeff(&stiffest);
-    return {std::sqrt(square), 0, stiffest};
+    return {std::sqrt(square), 0, stiffest, is_linear};
   }
 
   std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {
@@ -187,6 +189,12 @@ class ElasticSprings : public SpringEffect {
   }
 
  private:
+  /// Pulls with the distance alone, and turns nothing.
+  static bool isLinear(const Spring& spring) {
+    return spring.rest_length == 0 && !spring.tension_only && !spring.ends[0].turns &&
+           !spring.ends[1].turns;
+  }
+
   /// On the first end; smooth at l = 0 if l0 = 0.
   static Triple pull(const Spring& spring, const Line& line) {
     return (spring.stiffness * (1 - spring.rest_length / line.length)) * line.d_W;
