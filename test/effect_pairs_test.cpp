@@ -140,9 +140,6 @@ TEST(EffectPairs, OnDifferentBodiesAreNotAddedUp) {
 
 TEST(Effects, ThatAreNotFiniteAtTheStartAreRefusedByNameAndBody) {
   for (const auto& [effect, body] : std::vector<std::pair<std::string, std::string>>{
-           {"central_gravity: {mu: 1}", ""},  // at its centre
-           {"central_gravity: {mu: 1, center: [0, 0, 1], j2: 0.1, equatorial_radius: 1.0e+200}",
-            ""},
            {"buoyancy: {fluid_density: 1.0e+200, volume: 1.0e+200, acceleration: [0, 0, -9.8]}",
             ""},
            {"magnetic_dipole: {field: [1.0e+200, 0, 0], dipole: [0, 1.0e+200, 0]}", ""},

@@ -65,6 +65,7 @@ void readInVain(const EffectRow& row, const EffectBlock& block, std::vector<Scen
   for (SceneBody& body : bodies) {
     body.is_point_mass = false;
     body.mass_properties = solidSphere(1, 1);
+    body.X_WL.translation().setConstant(1e30);  // where it is in nothing's way
     body.added_mass_L = {};
   }
   EffectBlock vain{block.name, block.scene, {}, {}, bodies};
