@@ -275,8 +275,10 @@ TEST(AddedMass, InTheTensorAloneNeedsNoEffect) {
   I_L.diagonal() += Vector3d(0.4, 0.9, 0.2);
   EXPECT_LE(difference(Simulator(scene).bodies().moments(0), principalInertia(I_L).I_BBcm_B),
             1e-15);
-  EXPECT_TRUE(sceneFrom("{bodies: {" + genericBodyNamed("b") + "}, effects: {added_mass: {}}}")
-                  .effects.empty());
+  const Scene none =
+      sceneFrom("{bodies: {" + genericBodyNamed("b") + "}, effects: {added_mass: {}}}");
+  EXPECT_TRUE(none.effects.empty());
+  EXPECT_TRUE(contains(none.elided.at(0), {"added_mass: no body has"}));
 }
 
 TEST(AddedMass, RestrictedToSomeBodiesIsTheSame) {

@@ -135,6 +135,8 @@ void readEffects(const Parameters& parameters, const std::vector<Parameters>& bo
     const EffectList made = row.make(block);
     if (!is_in_vain) refuseUnknown(block);
     if (made.empty()) scene.elided.push_back(row.name + ": " + block.why_nothing);
+    if (!made.empty())
+      for (const std::string& one : block.idle) scene.elided.push_back(row.name + one);
     scene.effects.insert(scene.effects.end(), made.begin(), made.end());
   }
   effects.refuseUnknown();
