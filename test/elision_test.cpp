@@ -143,6 +143,31 @@ TEST(SwitchEffect, RefusesWhatIsNotThereAndChangesNothing) {
   EXPECT_NEAR(simulator.state(0).P_WB.z(), -2 * 9.8 * 0.02, 1e-15);
 }
 
+TEST(SwitchEffect, OfTheSpringsIsOfTheirDashpotsToo) {
+  Simulator simulator(
+      sceneFrom("{effects: {spring: [{body: a, anchor: [0, 0, 0], stiffness: 1, damping: 1}]}, "
+                "bodies: {a: {point_mass: 1, position: [0, 0, 1], linear_velocity: [0, 0, 1]}}}"));
+  EXPECT_EQ(simulator.effectNames(), (std::vector<std::string>{"gyroscopic", "spring"}));
+  simulator.step();
+  EXPECT_TRUE(simulator.switchEffect("spring", false));
+  const Vector3d P = simulator.state(0).P_WB;
+  for (int i = 0; i < 10; ++i) simulator.step();
+  EXPECT_EQ(simulator.state(0).P_WB, P);
+  EXPECT_EQ(simulator.effectCounts().size(), 2u) << "what they did is still counted";
+  EXPECT_TRUE(simulator.switchEffect("spring", true));
+  EXPECT_EQ(simulator.scene().effects.size(), 2u);
+}
+
+TEST(SwitchEffect, SaysWhetherItChangedAnything) {
+  Simulator simulator(sceneFrom(scene("exact", "gravity: {acceleration: [0, 0, -9.8]}")));
+  for (const std::string name : {"gravity", "gyroscopic"}) {
+    EXPECT_FALSE(simulator.switchEffect(name, true)) << name;
+    EXPECT_TRUE(simulator.switchEffect(name, false)) << name;
+    EXPECT_FALSE(simulator.switchEffect(name, false)) << name;
+    EXPECT_TRUE(simulator.switchEffect(name, true)) << name;
+  }
+}
+
 TEST(SwitchEffect, MayAlwaysEndWhatActs) {
   // Spun up beyond what rk4 bears: that is no reason to hold on to gravity.
   Simulator simulator(sceneFrom(scene("rk4", "gravity: {acceleration: [0, 0, -9.8]}")));

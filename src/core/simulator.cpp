@@ -353,44 +353,6 @@ void Simulator::reset() {
   ++tick_;
 }
 
-std::vector<std::string> Simulator::effectNames() const {
-  std::vector<std::string> names = {"gyroscopic"};
-  for (const auto& effect : at_start_.effects)
-    if (std::find(names.begin(), names.end(), effect->name()) == names.end())
-      names.push_back(effect->name());
-  return names;
-}
-
-void Simulator::switchEffect(const std::string& name, bool is_on) {
-  if (watch_)
-    throw std::invalid_argument(
-        "the methods were chosen for these effects, to keep the accuracy; a scene with a budget "
-        "keeps its effects");
-  const std::vector<std::string> names = effectNames();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
-    throw std::invalid_argument("the scene has no effect '" + name + "'; there are " + known);
-  }
-  Scene changed = scene_;
-  if (name == "gyroscopic") changed.gyroscopic = is_on ? Gyroscopic::kOn : Gyroscopic::kOff;
-  changed.effects.clear();
-  for (const auto& effect : at_start_.effects) {
-    const auto& now = scene_.effects;
-    const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
-    if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name +
-                                  "' cannot end: the momenta of the bodies contain it");
-    if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
-  }
-  // What ends makes nothing harder, but that some effects need the gyroscopic term.
-  if (is_on || name == "gyroscopic") requireSuitableMethods(changed, bodies(), time_s());
-  const double before = energy().potential_J;
-  scene_ = std::move(changed);
-  start_energy_J_ += energy().potential_J - before;  // it comes and goes with the effect
-  makeBlocks();
-}
-
 std::optional<OverTurnedBody> Simulator::overTurnedBody() const {
   std::optional<OverTurnedBody> worst;
   for (const Placed& one : blocks_) {

@@ -204,6 +204,7 @@ class SpringDamping : public SpringEffect {
   using SpringEffect::SpringEffect;
 
   std::string name() const override { return "spring_damping"; }
+  std::string blockName() const override { return "spring"; }
   bool dependsOnVelocity() const override { return true; }
   int flowOrder() const override { return 2; }
 
