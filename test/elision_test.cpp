@@ -104,6 +104,21 @@ TEST(Elision, IsSaidOnceWithItsReason) {
                 "gyroscopic for 1 of 3: spherical", "rotation for 1 of 3: point masses"}));
 }
 
+TEST(Elision, OfAllMotionIsSaidIfNothingMovesAndNothingActs) {
+  const auto said = [](const std::string& effects, const std::string& more) {
+    const std::vector<std::string> lines = elisions(
+        Simulator(sceneFrom("{effects: {" + effects + "}, bodies: {a: {mass: 1, inertia: [1, 2, " +
+                            "2.5]}, b: {mass: 1, inertia: [1, 2, 2.5]" + more + "}}}"))
+            .scene());
+    return !lines.empty() && lines.back().find("nothing is computed until") != std::string::npos;
+  };
+  EXPECT_TRUE(said("", ""));
+  EXPECT_TRUE(said("gravity: {acceleration: [0, 0, 0]}", ""));
+  EXPECT_FALSE(said("gravity: {acceleration: [0, 0, 1]}", ""));
+  EXPECT_FALSE(said("", ", linear_velocity: [0, 0, 1]"));
+  EXPECT_FALSE(said("", ", angular_velocity: [0, 0, 1]"));
+}
+
 TEST(Evaluations, AreTicksTimesBodiesTimesStages) {
   const std::map<std::string, int> kicks = {
       {"semi_implicit", 1}, {"exact", 2}, {"rk4", 4}, {"rk8", 12}};

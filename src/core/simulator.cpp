@@ -97,6 +97,10 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
   at_start_ = {scene_.effects, scene_.gyroscopic};
+  if (scene_.effects.empty() && initial_.P_WB.isZero(0) && initial_.L_WBcm_W.isZero(0))
+    scene_.elided.push_back(
+        "motion: all bodies start at rest and nothing acts on them; nothing is computed until "
+        "something does");
   makeBlocks();
   start_energy_J_ = initial_energy_J_ = energy().kinetic_J + energy().potential_J;
 }
