@@ -386,7 +386,7 @@ TEST(Spring, BadParametersAreRefusedWithPathValueAndUnit) {
                        {at + "to_point"}));
   EXPECT_TRUE(contains(what("body: a, to: a, stiffness: 2.0"), {at + "to", "'a'"}));
   EXPECT_TRUE(contains(what("body: dog, anchor: [0, 0, 0], stiffness: 2.0"),
-                       {at + "body", "'dog'", "'dot'"}));
+                       {at + "body", "'dog'; there are a, dot; did you mean 'dot'?"}));
   EXPECT_TRUE(contains(what("body: dot, point: [0, 0, 1], anchor: [0, 0, 0], stiffness: 2.0"),
                        {at + "point", "'dot'", "no torque"}));
   EXPECT_TRUE(contains(what("body: a, anchor: [0, 0, 0], stiffness: 2.0, colour: 1"),

@@ -31,6 +31,11 @@ std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene
 
 EffectBlock blockOf(const EffectRow& row, const Parameters& effects,
                     const std::vector<Parameters>& bodies, Scene& scene) {
+  if (effects.isBoolean(row.name))
+    effects.refuse(row.name,
+                   "true and false are for a body's own block and for `gyroscopic`; here an "
+                   "effect has its parameters, or is left out, or ended by "
+                   "~switch_effect while the node runs");
   EffectBlock block{row.name, Parameters({}, ""), {}, {}, scene.bodies};
   if (row.layout == BlockLayout::kList) {
     if (effects.has(row.name)) block.entries = effects.children(row.name);
