@@ -177,6 +177,9 @@ TEST(Children, AreMaps) {
 
 TEST(Keys, AreThereOrNotAndSorted) {
   const Parameters parameters = parametersOf("{b: 1, a: {c: 2}}");
+  EXPECT_FALSE(parameters.isBoolean("b"));
+  EXPECT_FALSE(parameters.isBoolean("c"));
+  EXPECT_TRUE(parametersOf("b: no").isBoolean("b"));
   EXPECT_EQ(parameters.keys(), (std::vector<std::string>{"a", "b"}));
   EXPECT_TRUE(parameters.has("a"));
   EXPECT_FALSE(parameters.has("c"));

@@ -145,7 +145,8 @@ class Drag : public Effect {
 std::optional<double> readDensity(const Parameters& scene) {
   if (!scene.has("atmosphere")) {
     if (!scene.has("air_density"))
-      scene.refuseMissing("air_density", "[kg/m^3]; or give `atmosphere: us_standard_1976`");
+      scene.refuseMissing("air_density",
+                          "it must be a density [kg/m^3]; or give `atmosphere: us_standard_1976`");
     return scene.number("air_density", notNegative("kg/m^3"));
   }
   if (scene.has("air_density"))
