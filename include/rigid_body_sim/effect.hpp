@@ -38,8 +38,12 @@ class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// As in scene files.
+  /// In messages and counts.
   virtual std::string name() const = 0;
+
+  /// As in scene files, and what it is switched by: of several effects that one block makes, the
+  /// block's.
+  virtual std::string blockName() const { return name(); }
 
   /// How many bodies it acts on.
   virtual std::size_t bodyCount() const = 0;

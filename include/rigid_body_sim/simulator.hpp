@@ -172,11 +172,12 @@ class Simulator {
 
   /// Ends or begins again what the scene lists below `effects`, or the gyroscopic term of those
   /// bodies that do not say of it themselves, from this tick on; until the next reset.
+  /// @returns whether that changed anything
   /// @throws std::invalid_argument for an effect that the scene does not have, if a method does not
   /// bear it, or if the scene has an accuracy budget; nothing is changed then.
-  void switchEffect(const std::string& name, bool is_on);
+  bool switchEffect(const std::string& name, bool is_on);
 
-  /// What switchEffect() takes.
+  /// What switchEffect() takes: the blocks below `effects`, and `gyroscopic`.
   std::vector<std::string> effectNames() const;
 
   /// What each effect has done since the start or the latest reset; those that were never active
@@ -258,6 +259,7 @@ class Simulator {
     EffectList effects;
     Gyroscopic gyroscopic = Gyroscopic::kOn;
   };
+  Switches switchedTo(const std::string& name, bool is_on) const;
   Switches at_start_;
   std::vector<EffectCount> counts_;  // of blocks that are no more
   double initial_energy_J_ = 0;

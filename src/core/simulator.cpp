@@ -76,6 +76,10 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
   at_start_ = {scene_.effects, scene_.gyroscopic};
+  if (scene_.effects.empty() && initial_.P_WB.isZero(0) && initial_.L_WBcm_W.isZero(0))
+    scene_.elided.push_back(
+        "motion: all bodies start at rest and nothing acts on them; nothing is computed until "
+        "something does");
   makeBlocks();
   start_energy_J_ = initial_energy_J_ = energy().kinetic_J + energy().potential_J;
 }
@@ -261,44 +265,6 @@ void Simulator::reset() {
   pending_impulses_.clear();
   ended_.clear();
   ++tick_;
-}
-
-std::vector<std::string> Simulator::effectNames() const {
-  std::vector<std::string> names = {"gyroscopic"};
-  for (const auto& effect : at_start_.effects)
-    if (std::find(names.begin(), names.end(), effect->name()) == names.end())
-      names.push_back(effect->name());
-  return names;
-}
-
-void Simulator::switchEffect(const std::string& name, bool is_on) {
-  if (watch_)
-    throw std::invalid_argument(
-        "the methods were chosen for these effects, to keep the accuracy; a scene with a budget "
-        "keeps its effects");
-  const std::vector<std::string> names = effectNames();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
-    throw std::invalid_argument("the scene has no effect '" + name + "'; there are " + known);
-  }
-  Scene changed = scene_;
-  if (name == "gyroscopic") changed.gyroscopic = is_on ? Gyroscopic::kOn : Gyroscopic::kOff;
-  changed.effects.clear();
-  for (const auto& effect : at_start_.effects) {
-    const auto& now = scene_.effects;
-    const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
-    if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name +
-                                  "' cannot end: the momenta of the bodies contain it");
-    if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
-  }
-  // What ends makes nothing harder, but that some effects need the gyroscopic term.
-  if (is_on || name == "gyroscopic") requireSuitableMethods(changed, bodies(), time_s());
-  const double before = energy().potential_J;
-  scene_ = std::move(changed);
-  start_energy_J_ += energy().potential_J - before;  // it comes and goes with the effect
-  makeBlocks();
 }
 
 std::optional<OverTurnedBody> Simulator::overTurnedBody() const {

@@ -254,10 +254,11 @@ std::string caution(const Method& method, const EffectList& effects) {
   for (const auto& effect : effects) {
     const int order = orderUnder(row, *effect);
     if (order >= row.order || order == 0) continue;
-    return effect->name() +
-           (effect->flowOrder() > 0 ? " is a flow of its own: " : " depends on velocities: ") +
+    const bool is_flow = effect->flowOrder() > 0;
+    return effect->name() + (is_flow ? " is a flow of its own: " : " depends on velocities: ") +
            row.name + " is of order " + std::to_string(order) + " with it, not " +
-           std::to_string(row.order);
+           std::to_string(row.order) +
+           (is_flow ? "" : ", and may gain energy without bound; rk4 and rk8 keep their order");
   }
   return {};
 }

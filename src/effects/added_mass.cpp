@@ -127,6 +127,7 @@ AddedMass addedMassOf(const EffectBlock& block, const EffectBlock::Member& membe
 
 EffectList makeAddedMass(EffectBlock& block) {
   Members<Carried> members;
+  if (!block.members.empty()) block.why_nothing = "no body has a linear or an angular one";
   for (const auto& member : block.members) {
     const AddedMass added = addedMassOf(block, member);
     if (added.isZero()) continue;

@@ -212,6 +212,7 @@ class SpringDamping : public SpringEffect {
   using SpringEffect::SpringEffect;
 
   std::string name() const override { return "spring_damping"; }
+  std::string blockName() const override { return "spring"; }
   bool dependsOnVelocity() const override { return true; }
   int flowOrder() const override { return 2; }
 
@@ -351,11 +352,15 @@ Spring springOf(const EffectBlock& block, const Parameters& entry) {
 
 EffectList makeSpring(EffectBlock& block) {
   Springs elastic, damped;
-  for (const Parameters& entry : block.entries) {
-    const Spring spring = springOf(block, entry);
+  block.why_nothing = "the list is empty";
+  for (std::size_t k = 0; k < block.entries.size(); ++k) {
+    const Spring spring = springOf(block, block.entries[k]);
+    if (spring.stiffness == 0 && spring.damping == 0)
+      block.idle.push_back("[" + std::to_string(k) + "]: its stiffness and its damping are zero");
     if (spring.stiffness > 0) elastic.push_back(spring);
     if (spring.damping > 0) damped.push_back(spring);
   }
+  if (!block.entries.empty()) block.why_nothing = "of no spring is stiffness or damping above zero";
   EffectList effects;
   if (!elastic.empty()) effects.push_back(std::make_shared<ElasticSprings>(std::move(elastic)));
   if (!damped.empty()) effects.push_back(std::make_shared<SpringDamping>(std::move(damped)));
