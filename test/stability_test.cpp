@@ -116,8 +116,11 @@ TEST_P(IntegratorLaws, KeepsSwingsOfAnySizeBoundedUpToTheOneThatIsStated) {
   // On velocities the gyroscopic term grows by itself.
   if (row.keeps_angular_momentum || row.name == "rk4" || row.name == "rk8")
     EXPECT_LE(heat(row, three, row.max_large_swing), 2.5);
-  // And not needlessly small: with 2.2 times as much, some swing has no bound.
-  EXPECT_GE(heat(row, three, 2.2 * row.max_large_swing), 5);
+  // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing has
+  // no bound.
+  if (row.keeps_angular_momentum && row.has_drifts) {
+    EXPECT_GE(heat(row, three, 2.2 * row.max_large_swing), 5);
+  }
 }
 
 TEST_P(IntegratorLaws, IsStableUpToTheDecayThatIsStated) {

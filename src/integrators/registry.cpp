@@ -39,7 +39,7 @@ const std::vector<IntegratorRow>& integrators() {
        makeSemiImplicit},
       {"split2", 2, 1, true, false, true, true, true, kInf, 2, kLargeSwing, 4, 2, 1.7, 2.5, true,
        "kick - exact-rotations drift - kick on (P, L); never touches L in free flight", makeSplit2},
-      {"rk4", 4, 4, false, false, true, false, false, 1, 2.82, 2.8, 2.78, 4, 3.1, 6.4, false,
+      {"rk4", 4, 4, false, false, true, false, false, 1, 2.82, 2.5, 2.78, 4, 3.1, 6.4, false,
        "classical Runge-Kutta on momentum in body axes, Runge-Kutta-Munthe-Kaas on attitude; any "
        "smooth wrench",
        makeRk4},
