@@ -36,7 +36,7 @@ EffectBlock blockOf(const EffectRow& row, const Parameters& effects,
                    "true and false are for a body's own block and for `gyroscopic`; here an "
                    "effect has its parameters, or is left out, or ended by "
                    "~switch_effect while the node runs");
-  EffectBlock block{row.name, Parameters({}, ""), {}, {}, scene.bodies, {}};
+  EffectBlock block{row.name, Parameters({}, ""), {}, {}, scene.bodies};
   if (row.layout == BlockLayout::kList) {
     if (effects.has(row.name)) block.entries = effects.children(row.name);
     return block;
@@ -73,7 +73,7 @@ void readInVain(const EffectRow& row, const EffectBlock& block, std::vector<Scen
     body.X_WL.translation().setConstant(1e30);  // where it is in nothing's way
     body.added_mass_L = {};
   }
-  EffectBlock vain{block.name, block.scene, {}, {}, bodies, {}};
+  EffectBlock vain{block.name, block.scene, {}, {}, bodies};
   for (std::size_t i = 0; i < bodies.size(); ++i)
     vain.members.push_back(
         {static_cast<Eigen::Index>(i), Parameters({}, "bodies." + bodies[i].name)});

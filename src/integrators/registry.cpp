@@ -55,8 +55,9 @@ const std::vector<IntegratorRow>& integrators() {
        "six exact free rotations between seven kicks (Blanes and Moan); any spin", makeExact4},
       {"exact6", 6, 0, true, true, true, true, true, kInf, 3.1, 2, 0, 12, 1.2, 47, false,
        "eleven exact free rotations between twelve kicks (Blanes and Moan); any spin", makeExact6},
-      {"adaptive", 0, 0, false, false, true, false, false, kInf, kInf, kInf, kInf, 0, 32, 32, false,
-       "rk8 in as many steps as `tolerance` wants; the reference", makeAdaptive},
+      {"adaptive", 0, 0, false, false, true, false, false, 200, kInf, kInf, kInf, 0, 32, 32, false,
+       "rk8 in as many steps as `tolerance` wants, a thousand a tick at most; the reference",
+       makeAdaptive},
   };
   return rows;
 }
