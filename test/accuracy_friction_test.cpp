@@ -125,9 +125,9 @@ TEST(StiffFriction, HasItsBudgetKept) {
 }
 
 TEST(StiffFriction, OfABodyThatFliesFastAtFirstHasItsBudgetKept) {
-  // It slows down at 1.8e6 1/s, for a millionth of a second; then it sinks.
+  // It slows down at 1.8e5 1/s, for some millionths of a second; then it sinks.
   Friction one = dragged(3000, 0.01);
-  one.scene.bodies[0].v_WBcm << 10, 0, 0;
+  one.scene.bodies[0].v_WBcm << 0.5, 0, 0;
   const TrueTrajectory truth = flyTruly(one.scene, 50, 1);
   EXPECT_LE(truth.doubt.position_m, 1e-9) << truth.how;
   one.scene.accuracy = metres(1e-2, 1);
@@ -148,7 +148,7 @@ TEST(StiffFriction, IsPlannedWithMethodsThatTheSimulatorTakes) {
         for (const auto& offer :
              {std::optional<Offer>(bought.chosen), bought.runner_up, bought.digit_less}) {
           if (!offer) continue;
-          EXPECT_EQ(refusal([&] { Simulator{withMethod(one.scene, offer->method)}; }), "")
+          EXPECT_NO_THROW(Simulator{withMethod(one.scene, offer->method)})
               << toText(offer->method);
         }
     }
@@ -156,17 +156,18 @@ TEST(StiffFriction, IsPlannedWithMethodsThatTheSimulatorTakes) {
 }
 
 TEST(StiffFriction, ThatNoReferenceCanFollowIsRefusedAndSaysSo) {
-  // 2e7 1/s of a tick of 0.02 s: 4e5 times too fast for a step a tick.
-  for (const double c : {2e7, 1e12}) {
-    Friction one = damped(c);
-    one.scene.accuracy = metres(1, 5);
-    EXPECT_TRUE(contains(refusal([&] { Simulator{one.scene}; }),
-                         {"accuracy: 1 m over 5 s", "body 'dot'", "'damping' is too stiff",
-                          "no reference", "slows it down at 2e+07 1/s", "step_s"}) ||
-                c > 2e7);
-    EXPECT_TRUE(contains(refusal([&] { Simulator{one.scene}; }), {"no reference"})) << c;
-    EXPECT_EQ(flyTruly(one.scene, 10, 1).doubt.position_m, kInf);
-  }
+  // 2e7 times in a tick, of which `adaptive` takes a thousandth at least, in pieces.
+  Friction one = damped(1e9);
+  one.scene.accuracy = metres(1, 5);
+  EXPECT_TRUE(contains(
+      refusal([&] { Simulator{one.scene}; }),
+      {"accuracy: 1 m over 5 s cannot be planned for body 'dot': 'damping' is too stiff: it slows "
+       "it down at 1e+09 1/s, 2e+07 times in a tick; there is no reference",
+       "take a smaller step_s, or name an integrator"}));
+  const TrueTrajectory none = flyTruly(one.scene, 10, 1);
+  EXPECT_EQ(none.doubt.position_m, kInf);
+  EXPECT_EQ(none.trajectory.samples.size(), 11u);
+  EXPECT_TRUE(contains(none.how, {"there is no reference"}));
 }
 
 TEST(StiffFriction, LeavesLocalErrorsThatAreNumbers) {
