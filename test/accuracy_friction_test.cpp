@@ -41,11 +41,10 @@ Friction damped(double c) {
 Friction dragged(double drag_area, double mass) {
   const double k = 0.5 * 1.2 * drag_area / mass;
   const double rate = std::sqrt(kGravity * k);
-  return {
-      falling(mass, "drag: {air_density: 1.2, drag_area: " + numberText(drag_area) + "}"),
-      Vector3d::UnitZ(), [=](double t) {
-        return -(rate * t + std::log1p(std::exp(-2 * rate * t)) - std::log(2.0)) / k;
-      }};
+  return {falling(mass, "drag: {air_density: 1.2, drag_area: " + numberText(drag_area) + "}"),
+          Vector3d::UnitZ(), [=](double t) {
+            return -(rate * t + std::log1p(std::exp(-2 * rate * t)) - std::log(2.0)) / k;
+          }};
 }
 
 /// x'' = -k x - c x', of one kilogram from rest at x = 1; overdamped.
@@ -93,14 +92,14 @@ void expectKept(const Friction& one, const Budget& budget, const std::string& na
 }
 
 TEST(StiffFriction, HasATruthThatIsNoFurtherFromTheClosedFormThanItsDoubt) {
-  for (const auto& [name, one] : std::vector<std::pair<std::string, Friction>>{
-           {"damping 20", damped(20)},
-           {"damping 230", damped(230)},
-           {"damping 1e4", damped(1e4)},
-           {"damping 1e5", damped(1e5)},
-           {"drag", dragged(3000, 0.01)},
-           {"spring 100", sprung(100, 100)},
-           {"spring 2000", sprung(100, 2000)}}) {
+  for (const auto& [name, one] :
+       std::vector<std::pair<std::string, Friction>>{{"damping 20", damped(20)},
+                                                     {"damping 230", damped(230)},
+                                                     {"damping 1e4", damped(1e4)},
+                                                     {"damping 1e5", damped(1e5)},
+                                                     {"drag", dragged(3000, 0.01)},
+                                                     {"spring 100", sprung(100, 100)},
+                                                     {"spring 2000", sprung(100, 2000)}}) {
     const TrueTrajectory truth = flyTruly(one.scene, 250, 1);
     double worst = 0;
     for (std::size_t k = 0; k < truth.trajectory.samples.size(); ++k)
@@ -114,7 +113,7 @@ TEST(StiffFriction, HasATruthThatIsNoFurtherFromTheClosedFormThanItsDoubt) {
 }
 
 TEST(StiffFriction, HasItsBudgetKept) {
-  for (const double c : {20., 230., 1000., 1500., 1e4})
+  for (const double c : {20., 230., 1000., 1500., 1e4, 5e5})
     for (const double error : {1e-2, 1e-3, 1e-5, 1e-8})
       expectKept(damped(c), metres(error, 5), "damping " + numberText(c) + numberText(error));
   for (const double error : {1e-2, 1e-4, 1e-6})
@@ -148,8 +147,7 @@ TEST(StiffFriction, IsPlannedWithMethodsThatTheSimulatorTakes) {
         for (const auto& offer :
              {std::optional<Offer>(bought.chosen), bought.runner_up, bought.digit_less}) {
           if (!offer) continue;
-          EXPECT_NO_THROW(Simulator{withMethod(one.scene, offer->method)})
-              << toText(offer->method);
+          EXPECT_NO_THROW(Simulator{withMethod(one.scene, offer->method)}) << toText(offer->method);
         }
     }
   }
@@ -181,11 +179,51 @@ TEST(StiffFriction, LeavesLocalErrorsThatAreNumbers) {
   EXPECT_LE(simulator.accuracy()->worst_ever->predicted.position_m, 1e-5);
 }
 
+TEST(StiffFriction, OfSeveralBodiesIsNamedWithItsBody) {
+  Scene scene = sceneFrom(
+      "{bodies: {free: {point_mass: 1}, dot: {point_mass: 1, damping: {linear: 1.0e+9}}}, effects: "
+      "{gravity: {acceleration: [0, 0, -9.8]}, damping: {linear: 1}}}");
+  scene.accuracy = metres(1, 5);
+  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }), {"planned for body 'dot': 'damping'"}));
+}
+
+TEST(StiffFriction, OfCoupledBodiesHasItsBudgetKept) {
+  // Two bodies, overdamped between each other: half of the distance is as that of one on a spring
+  // to the world of twice the numbers.
+  Friction one = sprung(100, 1000);
+  one.scene = sceneFrom(
+      "{bodies: {dot: {point_mass: 1, position: [1, 0, 0]}, other: {point_mass: 1, position: [-1, "
+      "0, 0]}}, effects: {spring: [{body: dot, to: other, stiffness: 50, damping: 500}]}}");
+  expectKept(one, metres(1e-4, 2), "pair");
+}
+
+TEST(StiffFriction, OfManyBodiesOverLongIsExtrapolated) {
+  // A spring that goes on creeping gives the reference no rest: a hundred steps a tick.
+  std::string bodies, springs;
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "dot_" + std::to_string(i);
+    bodies += name + ": {point_mass: 1, position: [1, " + std::to_string(i) + ", 0]}, ";
+    springs += "{body: " + name + ", anchor: [0, " + std::to_string(i) +
+               ", 0], stiffness: 100, damping: 1.0e+4}, ";
+  }
+  const Scene scene = sceneFrom("{bodies: {" + bodies + "}, effects: {spring: [" + springs + "]}}");
+  const Bill bill = plan(scene, metres(1e-2, 600));
+  EXPECT_LT(bill.ticks_flown, 30'000);
+  EXPECT_TRUE(contains(toText(bill, scene), {"extrapolated"}));
+}
+
+TEST(StiffFriction, GetsTheSameMethodEachTime) {
+  for (const Friction& one : {damped(1e4), dragged(3000, 0.01), sprung(100, 2000)}) {
+    const auto bill = [&] { return toText(plan(one.scene, metres(1e-4, 2)), one.scene); };
+    EXPECT_EQ(bill(), bill());
+  }
+}
+
 TEST(StiffSpring, ThatOneExactStepDoesNotBearIsPlannedInMore) {
   // 1000 rad/s: 20 rad a tick.
-  const Scene scene =
-      sceneFrom("{bodies: {dot: {point_mass: 1, position: [1, 0, 0]}}, effects: {spring: [{body: "
-                "dot, anchor: [0, 0, 0], stiffness: 1.0e+6}]}}");
+  const Scene scene = sceneFrom(
+      "{bodies: {dot: {point_mass: 1, position: [1, 0, 0]}}, effects: {spring: [{body: "
+      "dot, anchor: [0, 0, 0], stiffness: 1.0e+6}]}}");
   const Friction one = {scene, Vector3d::UnitX(), [](double t) { return std::cos(1000 * t); }};
   expectKept(one, metres(1e-3, 0.4), "spring");
   EXPECT_GE(plan(scene, metres(1e-3, 0.4)).classes[0].chosen.method.substeps, 4);
@@ -196,8 +234,9 @@ TEST(NotFinite, AtTheStartIsSaidInsteadOfAMethodsError) {
       "{bodies: {dot: {point_mass: 1}}, effects: {central_gravity: {mu: 1, center: [0, 0, 0]}}}");
   scene.accuracy = metres(1e-3, 1);
   EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
-                       {"body 'dot'", "'central_gravity' acts on it with a wrench that is not "
-                                      "finite"}));
+                       {"body 'dot'",
+                        "'central_gravity' acts on it with a wrench that is not "
+                        "finite"}));
 }
 
 }  // namespace

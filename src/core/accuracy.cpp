@@ -21,7 +21,7 @@ constexpr std::size_t kMostFlown = 256;
 constexpr double kMostTicks = 600'000;
 constexpr double kMostSteps = 6e7;
 constexpr double kMostStepsPerTick = 1000;
-constexpr double kFreeReferenceSteps = 4e6;  // of all references: some seconds
+constexpr double kStiffSteps = 4e6;  // of all bodies: some seconds
 constexpr double kMostSamples = 10'000;
 constexpr Tick kFewestTicks = 50;  // of a flight that is shorter than the span
 
@@ -45,8 +45,7 @@ Allowance allowanceOf(const Budget& budget, double tick_s, std::size_t parts, Ei
   Allowance allowance;
   allowance.steps = std::min(kMostSteps / static_cast<double>(parts),
                              kMostStepsPerTick * flown * static_cast<double>(bodies));
-  allowance.reference_steps =
-      std::max(kFreeReferenceSteps / static_cast<double>(parts), allowance.steps / 2);
+  allowance.stiff_steps = std::max(kStiffSteps / static_cast<double>(parts), allowance.steps / 2);
   setFlown(allowance, flown, ticks);
   return allowance;
 }
@@ -299,6 +298,15 @@ Bill planWithin(const Allowance& allowance, std::vector<Part> parts, const Situa
   return bill;
 }
 
+/// As a simulator at its start: else every method would seem to be bad.
+void requireFinite(const Situation& now) {
+  const double time_s = static_cast<double>(now.tick) * now.scene.step_s();
+  const auto wrong = notFinite(now.scene.effects, Instant(now.bodies, time_s));
+  if (!wrong) return;
+  const std::string& name = now.scene.bodies[static_cast<std::size_t>(wrong->body)].name;
+  throw std::invalid_argument("body '" + name + "': " + wrong->why);
+}
+
 /// What `plan` makes of the longest flights that do not take too many steps.
 template <class Plan>
 Bill planOfFlights(Allowance allowance, const Plan& plan) {
@@ -315,12 +323,7 @@ Bill planOfFlights(Allowance allowance, const Plan& plan) {
 }  // namespace
 
 Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise) {
-  const auto nameOf = [&](Eigen::Index body) {
-    return "body '" + now.scene.bodies[static_cast<std::size_t>(body)].name + "': ";
-  };
-  const double time_s = static_cast<double>(now.tick) * now.scene.step_s();
-  if (const auto wrong = notFinite(now.scene.effects, Instant(now.bodies, time_s)))
-    throw std::invalid_argument(nameOf(wrong->body) + wrong->why);
+  if (otherwise == WithoutAMethod::kRefuse) requireFinite(now);
   const std::vector<Part> parts = partsOf(now);
   const std::size_t flown = std::min(parts.size(), kMostFlown);
   const Allowance allowance =

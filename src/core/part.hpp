@@ -25,7 +25,8 @@ struct Situation {
   ShallEnd shall_end = {};
 };
 
-/// Why no method can be chosen for some bodies: what would take part in the choice is not to be had.
+/// Why no method can be chosen for some bodies: what would take part in the choice is not to be
+/// had.
 class Unplannable : public std::invalid_argument {
  public:
   /// @param body that it is about; its place among those bodies

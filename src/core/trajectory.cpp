@@ -47,8 +47,8 @@ double size(const Deviation& doubt) { return larger(doubt.attitude_rad, doubt.po
 Decay fastestDecay(const Trajectory& trajectory, const Course& course) {
   Decay fastest;
   for (std::size_t k = 0; k < trajectory.samples.size(); ++k) {
-    const double time_s = course.start_s + static_cast<double>(k) *
-                                               static_cast<double>(course.every) * course.tick_s;
+    const double time_s =
+        course.start_s + static_cast<double>(k) * static_cast<double>(course.every) * course.tick_s;
     Decay decay = fastestDecay(course.effects, Instant(trajectory.samples[k], time_s));
     if (std::isfinite(decay.rate) && decay.rate > fastest.rate) fastest = std::move(decay);
   }
@@ -66,7 +66,8 @@ Unplannable noReference(const Decay& decay, double tick_s) {
 }
 
 /// Where kick - drift - kick is no reference: by `adaptive`, in pieces of a tick that are short
-/// enough for it. A flight may meet more than there is at its start, and may then end in no numbers.
+/// enough for it. A flight may meet more than there is at its start, and may then end in no
+/// numbers.
 TrueTrajectory trueUnderFlows(const std::function<Trajectory(const Method&)>& fly,
                               const Course& course) {
   Decay decay = fastestDecay(course.effects, Instant(course.start, course.start_s));

@@ -28,8 +28,10 @@ constexpr double kLittleMore = 1.25;
 const std::vector<int>& substepCounts() {
   static const std::vector<int> counts = [] {
     std::vector<int> counts = {1, 2, 3};
-    for (int octave = 4; octave <= 1024; octave *= 2)
-      for (int quarter = 0; quarter < 4; ++quarter) counts.push_back(octave + quarter * octave / 4);
+    for (int octave = 4; octave <= kMostSubsteps; octave *= 2)
+      for (int quarter = 0; quarter < 4; ++quarter)
+        counts.push_back(std::min(kMostSubsteps, octave + quarter * octave / 4));
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
     return counts;
   }();
   return counts;
@@ -103,7 +105,7 @@ Trials::Trials(const Part& part, const Allowance& allowance)
     : part_(part),
       allowance_(allowance),
       compared_(ticksToCompare(allowance.ticks, allowance.every)) {
-  StepCount steps = {allowance.reference_steps, 0};
+  StepCount steps = {allowance.stiff_steps, 0};
   truth_ = flyTruly(part, allowance.ticks, allowance.every, steps);
   reference_steps_ = std::max(steps.taken, reckonedSteps());
   for (const auto& effect : part.effects)
@@ -126,8 +128,7 @@ void Trials::followTruth() {
     const Bodies& sample = truth_.trajectory.samples[k];
     rate_ = std::max(rate_, fastestOf(sample).rate);
     if (active.empty()) continue;
-    if (is_torque_free_)
-      is_torque_free_ = active.evaluate(sample, timeOf(k)).t_Bcm_W.isZero(0);
+    if (is_torque_free_) is_torque_free_ = active.evaluate(sample, timeOf(k)).t_Bcm_W.isZero(0);
     const double decay = fastestDecay(part_.effects, Instant(sample, timeOf(k))).rate;
     if (!(decay > fastest)) continue;
     fastest = decay;
@@ -188,7 +189,7 @@ Deviation Trials::errorOf(const Method& method) {
       flown_.emplace(std::pair(method.integrator, method.substeps), Deviation());
   Deviation& error = found->second;
   if (!is_new) return error;
-  (isWithin(method) ? body_steps_ : held_steps_) += stepsOf(method);
+  (isWithin(method) ? body_steps_ : stiff_steps_) += stepsOf(method);
   Flight flight(part_, method);
   Deviation whole, half;
   const std::vector<Bodies>& truth = truth_.trajectory.samples;
@@ -251,7 +252,7 @@ std::optional<Offer> Trials::cheapest(const Budget& budget, const std::string& e
 
 bool Trials::isAffordable(const Method& method) const {
   return flown_.count({method.integrator, method.substeps}) > 0 || isWithin(method) ||
-         isHeldFor(method);
+         isFirstOfStiff(method);
 }
 
 bool Trials::isWithin(const Method& method) const {
@@ -260,10 +261,10 @@ bool Trials::isWithin(const Method& method) const {
 
 /// The first flight of a method that is unstable with fewer steps has an allowance of its own: the
 /// cheap ones, which are tried before, may have used up the other.
-bool Trials::isHeldFor(const Method& method) const {
+bool Trials::isFirstOfStiff(const Method& method) const {
   const int least = least_.at(method.integrator);
   return least > 0 && method.substeps == substepCounts()[static_cast<std::size_t>(least)] &&
-         held_steps_ + stepsOf(method) <= allowance_.steps;
+         stiff_steps_ + stepsOf(method) <= allowance_.stiff_steps;
 }
 
 std::optional<Offer> Trials::choose(const Budget& budget, const std::string& except) {

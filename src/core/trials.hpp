@@ -18,8 +18,9 @@ struct Allowance {
   Tick every = 1;    ///< of these one is compared, see ticksToCompare()
   double span = 1;   ///< the budget's ticks by those flown; more than one: extrapolated
   double steps = 0;  ///< of all trial flights together, times bodies
-  /// Of the reference under effects with flows, which may be stiff.
-  double reference_steps = std::numeric_limits<double>::infinity();
+  /// Of what stiff effects ask for besides: of the reference, and of the first flights of methods
+  /// that are unstable in fewer steps.
+  double stiff_steps = std::numeric_limits<double>::infinity();
 };
 
 /// Trial flights of a part of a scene by the methods of the registry, against the truth; none is
@@ -43,7 +44,7 @@ class Trials {
   /// Over the whole span.
   Deviation doubt() const;
   const std::string& reference() const { return truth_.how; }
-  double bodySteps() const { return reference_steps_ + body_steps_; }
+  double bodySteps() const { return reference_steps_ + body_steps_ + stiff_steps_; }
   const Part& part() const { return part_; }
 
  private:
@@ -61,7 +62,7 @@ class Trials {
   double timeOf(std::size_t sample) const;
   bool isBorne(const Method& method) const;
   bool isWithin(const Method& method) const;
-  bool isHeldFor(const Method& method) const;
+  bool isFirstOfStiff(const Method& method) const;
 
   Part part_;
   Allowance allowance_;
@@ -69,11 +70,11 @@ class Trials {
   std::vector<Tick> compared_;  // ticks
   double rate_ = 0;             // the largest |w| on the way [rad/s]
   bool is_torque_free_ = true;
-  double effects_cost_ = 0;  // of an evaluation, a body
+  double effects_cost_ = 0;   // of an evaluation, a body
   std::size_t stiffest_ = 0;  // of the samples, where friction is fastest
   double reference_steps_ = 0;
-  double body_steps_ = 0;           // of the trials
-  double held_steps_ = 0;           // of those for which there are steps of their own
+  double body_steps_ = 0;             // of the other trials
+  double stiff_steps_ = 0;            // of first flights that the others left no steps for
   std::map<std::string, int> least_;  // by integrator, the place of the fewest substeps it takes
   std::map<std::pair<std::string, int>, Deviation> flown_;
 };
