@@ -71,7 +71,10 @@ Unplannable noReference(const Decay& decay, double tick_s) {
 TrueTrajectory trueUnderFlows(const std::function<Trajectory(const Method&)>& fly,
                               const Course& course) {
   Decay decay = fastestDecay(course.effects, Instant(course.start, course.start_s));
-  int pieces = piecesFor(decay.rate * course.tick_s);
+  const double turn = fastestOf(course.start).rate * course.tick_s;
+  const double wanted_by_spin = std::ceil(turn / integratorNamed("adaptive").max_turn);
+  int pieces = std::max(piecesFor(decay.rate * course.tick_s),
+                        static_cast<int>(std::min(wanted_by_spin, kMostPieces + 1.0)));
   while (pieces <= kMostPieces) {
     std::string how = "adaptive with a tolerance of 1e-14, against itself in half ticks";
     if (pieces > 1)
