@@ -100,7 +100,8 @@ double errorFromHere(Simulator& simulator) {
   here.accuracy.reset();
   const AppliedWrenches none;
   const Part start = wholeOf({here, simulator.bodies(), none, simulator.tick()});
-  const Trajectory truth = flyTruly(start, 500, 1).trajectory;
+  StepCount steps;
+  const Trajectory truth = flyTruly(start, 500, 1, steps).trajectory;
   double worst = 0;
   for (std::size_t k = 1; k <= 500; ++k) {
     simulator.step();

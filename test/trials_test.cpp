@@ -95,9 +95,10 @@ TEST(Trials, OfABudgetBelowTheDoubtFindNothingButTheBest) {
   Trials trials(partOf(one, simulator), {500, 1, 1, 1e9});
   const Budget budget = one.budget(1e-17);
   EXPECT_FALSE(trials.choose(budget));
-  const Offer best = trials.best(budget);
-  EXPECT_GT(best.cost, 0);
-  EXPECT_LE(best.error.attitude_rad, 1e-10);  // some high order's
+  const auto best = trials.best(budget);
+  ASSERT_TRUE(best);
+  EXPECT_GT(best->cost, 0);
+  EXPECT_LE(best->error.attitude_rad, 1e-10);  // some high order's
 }
 
 TEST(Trials, LeaveOutWhatDragForbids) {

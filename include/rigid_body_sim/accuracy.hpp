@@ -72,14 +72,17 @@ double shareOf(const Budget& budget, const Deviation& error, const Deviation& do
 /// choice into classes. Depends on nothing but its arguments; no clock is asked.
 ///
 /// Bounded: at most 256 bodies are flown, over at most 600,000 ticks in all, with at most 6e7 steps
-/// in all and 1000 a tick; a step takes some 0.1 to 1 us. Of more bodies the fastest of those alike
-/// are flown: alike are bodies under effects of the same names, whose |w|, largest moment by the
-/// smallest, torque and acceleration at the start are of one power of two, or of several if that
-/// makes more than 256 kinds. Bodies that differ by what only shows later (when a wrench begins,
-/// how stiff a spring is that is not drawn yet) are taken for alike, and a bill may be wrong for
-/// them. A scene whose effects couple its bodies is flown as a whole and gets one method.
+/// in all and 1000 a tick; a step takes some 0.1 to 1 us. Where effects are
+/// stiff, half as many come on top (or 4e6 steps of all bodies if that is more) for the reference
+/// under friction, and the same for the first flights of methods that fewer substeps make unstable.
+/// Where the reference would take more, flights are shorter. Of more bodies the fastest of those
+/// alike are flown: alike are bodies under effects of the same names, whose |w|, largest moment by
+/// the smallest, torque and acceleration at the start are of one power of two, or of several if
+/// that makes more than 256 kinds. Bodies that differ by what only shows later (when a wrench
+/// begins, how stiff a spring is that is not drawn yet) are taken for alike, and a bill may be
+/// wrong for them. A scene whose effects couple its bodies is flown as a whole and gets one method.
 /// @throws std::invalid_argument if no method keeps it, with the best there is and what it leaves;
-/// or as Simulator.
+/// if friction is too stiff for any reference, naming it; or as Simulator.
 Bill plan(const Scene& scene, const Budget& budget);
 
 /// The methods that a bill chose, for Scene::methods.

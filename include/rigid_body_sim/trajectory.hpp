@@ -47,7 +47,11 @@ struct TrueTrajectory {
 };
 
 /// The best that is known of a flight: `exact` if nothing acts on the bodies, else that or the
-/// adaptive method, whichever is in less doubt.
+/// adaptive method, whichever is in less doubt. Under effects that have a flow and depend on
+/// velocities, as friction, only the adaptive one: methods that go kick - drift - kick may agree
+/// with themselves there and be wrong. If such effects are too stiff even for it, there is no
+/// truth: the flight is that of `exact`, in infinite doubt, and `how` says why.
+/// @throws std::invalid_argument as Simulator.
 TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every);
 
 }  // namespace rigid_body_sim

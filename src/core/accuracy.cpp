@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/accuracy_plan.hpp"
+#include "core/suitability.hpp"
 #include "core/trials.hpp"
 #include "rigid_body_sim/simulator.hpp"
 
@@ -20,7 +21,9 @@ constexpr std::size_t kMostFlown = 256;
 constexpr double kMostTicks = 600'000;
 constexpr double kMostSteps = 6e7;
 constexpr double kMostStepsPerTick = 1000;
+constexpr double kStiffSteps = 4e6;  // of all bodies: some seconds
 constexpr double kMostSamples = 10'000;
+constexpr Tick kFewestTicks = 50;  // of a flight that is shorter than the span
 
 Budget scaled(Budget budget, double factor) {
   budget.attitude_rad *= factor;
@@ -28,16 +31,29 @@ Budget scaled(Budget budget, double factor) {
   return budget;
 }
 
+/// @param ticks of the budget
+void setFlown(Allowance& allowance, double flown, double ticks) {
+  allowance.every = static_cast<Tick>(std::ceil(flown / kMostSamples));
+  allowance.ticks = static_cast<Tick>(std::ceil(flown / allowance.every)) * allowance.every;
+  allowance.span = std::max(1.0, ticks / static_cast<double>(allowance.ticks));
+}
+
 Allowance allowanceOf(const Budget& budget, double tick_s, std::size_t parts, Eigen::Index bodies) {
   const double ticks = std::max(1.0, std::ceil(budget.over_s / tick_s));
   const double all = static_cast<double>(parts) * static_cast<double>(bodies);
   const double flown = std::min(ticks, std::max(1.0, std::floor(kMostTicks / all)));
   Allowance allowance;
-  allowance.every = static_cast<Tick>(std::ceil(flown / kMostSamples));
-  allowance.ticks = static_cast<Tick>(std::ceil(flown / allowance.every)) * allowance.every;
-  allowance.span = std::max(1.0, ticks / static_cast<double>(allowance.ticks));
   allowance.steps = std::min(kMostSteps / static_cast<double>(parts),
                              kMostStepsPerTick * flown * static_cast<double>(bodies));
+  allowance.stiff_steps = std::max(kStiffSteps / static_cast<double>(parts), allowance.steps / 2);
+  setFlown(allowance, flown, ticks);
+  return allowance;
+}
+
+/// A quarter of the flight, with as many steps.
+Allowance shorter(Allowance allowance) {
+  const double flown = static_cast<double>(allowance.ticks);
+  setFlown(allowance, std::max<double>(kFewestTicks, std::ceil(flown / 4)), flown * allowance.span);
   return allowance;
 }
 
@@ -131,10 +147,11 @@ class Choice {
   }
 
   /// Chooses for a part. @returns the class it went to
+  /// @throws Unplannable of a body of the scene; TooLong
   std::size_t add(const Part& part) {
-    auto trials = std::make_unique<Trials>(part, allowance_);
+    auto trials = trialsOf(part);
     const std::optional<Offer> kept = trials->choose(bill_.budget);
-    const Offer offer = kept ? *kept : trials->best(bill_.budget);
+    const Offer offer = kept ? *kept : bestOf(*trials);
     const double share = shareOf(bill_.budget, offer.error, trials->doubt());
     const std::size_t place = placeOf(offer.method, part.effects.empty());
     ClassBill& one = bill_.classes[place];
@@ -181,6 +198,27 @@ class Choice {
   }
 
  private:
+  std::unique_ptr<Trials> trialsOf(const Part& part) const {
+    const auto inScene = [&](Eigen::Index body) {
+      return part.indices[static_cast<std::size_t>(body)];
+    };
+    try {
+      return std::make_unique<Trials>(part, allowance_);
+    } catch (const TooLong& why) {
+      throw TooLong(why.what(), inScene(why.body()));
+    } catch (const Unplannable& why) {
+      throw Unplannable(why.what(), inScene(why.body()));
+    }
+  }
+
+  Offer bestOf(const Trials& trials) const {
+    if (auto best = trials.best(bill_.budget)) return *best;
+    throw Unplannable(
+        "what acts on it or its spin is too fast for every integrator, in as many substeps as "
+        "trials may fly",
+        trials.part().indices.front());
+  }
+
   std::size_t placeOf(const Method& method, bool is_free) {
     std::size_t place = 0;
     const auto fits = [&](const ClassBill& one) {
@@ -224,14 +262,16 @@ double shareOf(const Budget& budget, const Deviation& error, const Deviation& do
          kShareOfBudget;
 }
 
-Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise) {
+namespace {
+
+/// As planFrom(). @throws Unplannable, TooLong
+Bill planWithin(const Allowance& allowance, std::vector<Part> parts, const Situation& now,
+                const Budget& budget, WithoutAMethod otherwise) {
   Bill bill;
   bill.budget = budget;
   bill.tick = now.tick;
   bill.forecasts.resize(static_cast<std::size_t>(now.bodies.count()));
-  std::vector<Part> parts = partsOf(now);
-  const std::size_t flown = std::min(parts.size(), kMostFlown);
-  Choice choice(bill, allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count()));
+  Choice choice(bill, allowance);
   const auto add = [&](const Part& part) {
     const std::size_t place = choice.add(part);
     if (otherwise == WithoutAMethod::kRefuse) requireKept(bill, now.scene);
@@ -258,9 +298,48 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
   return bill;
 }
 
-Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
-  if (areCoupled(now.scene.effects, now.bodies.count()))
-    return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
+/// As a simulator at its start: else every method would seem to be bad.
+void requireFinite(const Situation& now) {
+  const double time_s = static_cast<double>(now.tick) * now.scene.step_s();
+  const auto wrong = notFinite(now.scene.effects, Instant(now.bodies, time_s));
+  if (!wrong) return;
+  const std::string& name = now.scene.bodies[static_cast<std::size_t>(wrong->body)].name;
+  throw std::invalid_argument("body '" + name + "': " + wrong->why);
+}
+
+/// What `plan` makes of the longest flights that do not take too many steps.
+template <class Plan>
+Bill planOfFlights(Allowance allowance, const Plan& plan) {
+  while (true) {
+    try {
+      return plan(allowance);
+    } catch (const TooLong&) {
+      if (allowance.ticks <= kFewestTicks) throw;
+      allowance = shorter(allowance);
+    }
+  }
+}
+
+}  // namespace
+
+Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwise) {
+  if (otherwise == WithoutAMethod::kRefuse) requireFinite(now);
+  const std::vector<Part> parts = partsOf(now);
+  const std::size_t flown = std::min(parts.size(), kMostFlown);
+  const Allowance allowance =
+      allowanceOf(budget, now.scene.step_s(), flown, parts[0].bodies.count());
+  try {
+    return planOfFlights(allowance, [&](const Allowance& one) {
+      return planWithin(one, parts, now, budget, otherwise);
+    });
+  } catch (const Unplannable& why) {
+    throw Unplannable(refusal(budget, why, now.scene), why.body());
+  }
+}
+
+namespace {
+
+Bill planAgainFor(Eigen::Index body, const Bill& bill, const Situation& now) {
   const auto part = partOf(now, {body});
   Bill next = bill;
   next.tick = now.tick;
@@ -269,18 +348,35 @@ Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
     one->bodies.erase(std::remove(one->bodies.begin(), one->bodies.end(), body), one->bodies.end());
     one = one->bodies.empty() ? next.classes.erase(one) : one + 1;
   }
-  Choice choice(next, allowanceOf(bill.budget, now.scene.step_s(), 1, 1));
-  choice.add(*part);
-  choice.finish();
-  return next;
+  return planOfFlights(allowanceOf(bill.budget, now.scene.step_s(), 1, 1),
+                       [&](const Allowance& allowance) {
+                         Bill one = next;
+                         Choice choice(one, allowance);
+                         choice.add(*part);
+                         choice.finish();
+                         return one;
+                       });
+}
+
+}  // namespace
+
+Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body) {
+  try {
+    if (areCoupled(now.scene.effects, now.bodies.count()))
+      return planFrom(now, bill.budget, WithoutAMethod::kTakeTheBest);
+    return planAgainFor(body, bill, now);
+  } catch (const Unplannable&) {
+    return bill;  // nothing better is known
+  }
 }
 
 Bill plan(const Scene& scene, const Budget& budget) {
   Scene bare = scene;
   bare.accuracy.reset();
   bare.methods = {};
-  bare.integrator = "exact";
-  bare.substeps = 1;
+  // What is refused last, and takes no step here.
+  bare.integrator = "adaptive";
+  bare.substeps = kMostSubsteps;
   const Simulator simulator(bare);
   return planFrom({simulator.scene(), simulator.bodies(), {}, 0}, budget, WithoutAMethod::kRefuse);
 }

@@ -101,6 +101,12 @@ std::string refusal(const Budget& budget, const ClassBill& one, const Scene& sce
                      : "; ask for less, or for a shorter span");
 }
 
+std::string refusal(const Budget& budget, const Unplannable& why, const Scene& scene) {
+  return "accuracy: " + summary(budget) + " cannot be planned for body '" +
+         scene.bodies[static_cast<std::size_t>(why.body())].name + "': " + why.what() +
+         "; take a smaller step_s, or name an integrator instead of `accuracy`";
+}
+
 std::string toText(const Bill& bill, const Scene& scene) {
   std::ostringstream text;
   text.precision(3);

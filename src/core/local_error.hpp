@@ -5,6 +5,8 @@
 namespace rigid_body_sim {
 
 /// Evaluations of the effects that the second flight of a tick takes at most: 64 steps of rk8.
+/// Where these would be unstable for friction it takes more: up to what the friction is faster than
+/// the tick, about.
 constexpr int kMostEvaluations = 64 * 12;
 
 /// The part after a tick, by a method far better than the one that is used.

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/friction.hpp"
+
 namespace rigid_body_sim {
 
 std::optional<Part> partOf(const Situation& now, const std::vector<Eigen::Index>& bodies) {
@@ -49,6 +51,12 @@ void Flight::step() {
   ++tick_;
 }
 
+double Flight::evaluations() const {
+  double sum = 0;
+  for (const EffectCount& count : block_.counts()) sum += static_cast<double>(count.evaluations);
+  return sum;
+}
+
 std::vector<Tick> ticksToCompare(Tick ticks, Tick every) {
   // Weyl's sequence: the multiples of the golden ratio, modulo one, in units of 2^-32.
   constexpr std::uint64_t kGoldenRatio = 2654435769;
@@ -73,9 +81,44 @@ Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every) {
   return trajectory;
 }
 
-TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every) {
-  return truest([&](const Method& method) { return fly(part, method, ticks, every); },
-                part.effects.empty(), static_cast<double>(ticks) * part.tick_s);
+namespace {
+
+/// What a step of rk8 counts, of all bodies together; each has its share of it.
+double evaluationsOfBodyStep(const Part& part) {
+  double acting = 0;
+  for (const auto& effect : part.effects) acting += static_cast<double>(effect->bodyCount());
+  return integratorNamed("rk8").evaluations * acting / static_cast<double>(part.bodies.count());
+}
+
+/// @throws TooLong
+Trajectory flyWithin(StepCount& steps, const Part& part, const Method& method, Tick ticks,
+                     Tick every) {
+  const double each = evaluationsOfBodyStep(part);
+  const double before = steps.taken;
+  Flight flight(part, method);
+  Trajectory trajectory = {every, {}};
+  for (const Tick tick : ticksToCompare(ticks, every)) {
+    while (flight.tick() < part.tick + tick) flight.step();
+    trajectory.samples.push_back(flight.bodies());
+    steps.taken = before + flight.evaluations() / each;
+    if (steps.taken <= steps.most) continue;
+    const Decay decay = fastestDecay(part.effects, Instant(flight.bodies(), part.tick_s * tick));
+    throw TooLong(decay.names + " would take a reference more steps than trials may fly",
+                  decay.body);
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every, StepCount& steps) {
+  const bool is_counted = haveFlows(part.effects);
+  const auto flown = [&](const Method& method) {
+    return is_counted ? flyWithin(steps, part, method, ticks, every)
+                      : fly(part, method, ticks, every);
+  };
+  return truest(flown, {part.effects, part.bodies, static_cast<double>(part.tick) * part.tick_s,
+                        part.tick_s, ticks, every});
 }
 
 }  // namespace rigid_body_sim

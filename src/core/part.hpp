@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "core/block.hpp"
@@ -20,6 +23,24 @@ struct Situation {
   const AppliedWrenches& held;
   Tick tick;
   ShallEnd shall_end = {};
+};
+
+/// Why no method can be chosen for some bodies: what would take part in the choice is not to be
+/// had.
+class Unplannable : public std::invalid_argument {
+ public:
+  /// @param body that it is about; its place among those bodies
+  Unplannable(const std::string& why, Eigen::Index body)
+      : std::invalid_argument(why), body_(body) {}
+  Eigen::Index body() const { return body_; }
+
+ private:
+  Eigen::Index body_;
+};
+
+/// The same of a flight that would be possible, but takes more steps than are allowed.
+class TooLong : public Unplannable {
+  using Unplannable::Unplannable;
 };
 
 /// Some of a scene's bodies by themselves, with all that acts on them: what can be flown on from
@@ -50,6 +71,9 @@ class Flight {
   const Bodies& bodies() const { return block_.bodies(); }
   Tick tick() const { return tick_; }
 
+  /// Evaluations of all effects together, in those of one effect on one body.
+  double evaluations() const;
+
  private:
   Block block_;
   Tick tick_;
@@ -66,11 +90,29 @@ std::vector<Tick> ticksToCompare(Tick ticks, Tick every);
 /// Sampled at ticksToCompare().
 Trajectory fly(const Part& part, const Method& method, Tick ticks, Tick every);
 
-/// As flyTruly() of a scene, but sampled at ticksToCompare().
-TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every);
+/// Steps of rk8, of all flights together, times bodies.
+struct StepCount {
+  double most = std::numeric_limits<double>::infinity();
+  double taken = 0;
+};
 
-/// The truest of what `fly` gives for `time_s` [s]; `is_free` if nothing acts on the bodies.
-TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, bool is_free,
-                      double time_s);
+/// As flyTruly() of a scene, but sampled at ticksToCompare().
+/// @param steps counted under effects with flows only, where they can be many
+/// @throws Unplannable if effects are so stiff that no flight can be taken for true; TooLong
+TrueTrajectory flyTruly(const Part& part, Tick ticks, Tick every, StepCount& steps);
+
+/// What is to be flown truly.
+struct Course {
+  const EffectList& effects;
+  const Bodies& start;
+  double start_s;
+  double tick_s;
+  Tick ticks;
+  Tick every;
+};
+
+/// The truest of what `fly` gives.
+/// @throws Unplannable as above
+TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, const Course& course);
 
 }  // namespace rigid_body_sim

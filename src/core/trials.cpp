@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/friction.hpp"
 #include "core/local_error.hpp"
 
 namespace rigid_body_sim {
@@ -27,8 +28,10 @@ constexpr double kLittleMore = 1.25;
 const std::vector<int>& substepCounts() {
   static const std::vector<int> counts = [] {
     std::vector<int> counts = {1, 2, 3};
-    for (int octave = 4; octave <= 1024; octave *= 2)
-      for (int quarter = 0; quarter < 4; ++quarter) counts.push_back(octave + quarter * octave / 4);
+    for (int octave = 4; octave <= kMostSubsteps; octave *= 2)
+      for (int quarter = 0; quarter < 4; ++quarter)
+        counts.push_back(std::min(kMostSubsteps, octave + quarter * octave / 4));
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
     return counts;
   }();
   return counts;
@@ -76,7 +79,7 @@ struct Trials::Rung {
   void fails(double share, bool is_lost) {
     const int before = failed;
     failed = next;
-    if (is_lost) {
+    if (is_lost || !std::isfinite(share)) {
       next = std::max(failed + 1, indexOf(4.0 * substepCounts()[failed]));
     } else {
       if (share > 0.75 * failed_share) return giveUp();
@@ -101,21 +104,60 @@ struct Trials::Rung {
 Trials::Trials(const Part& part, const Allowance& allowance)
     : part_(part),
       allowance_(allowance),
-      truth_(flyTruly(part, allowance.ticks, allowance.every)),
       compared_(ticksToCompare(allowance.ticks, allowance.every)) {
-  body_steps_ = kStepsOfReference * static_cast<double>(allowance.ticks * part.bodies.count());
-  ActiveEffects active;
-  for (const auto& effect : part.effects) {
-    active.add(effect.get());
+  StepCount steps = {allowance.stiff_steps, 0};
+  truth_ = flyTruly(part, allowance.ticks, allowance.every, steps);
+  reference_steps_ = std::max(steps.taken, reckonedSteps());
+  for (const auto& effect : part.effects)
     effects_cost_ += effect->cost() * static_cast<double>(effect->bodyCount()) /
                      static_cast<double>(part.bodies.count());
-  }
+  followTruth();
+  findLeast();
+}
+
+double Trials::timeOf(std::size_t sample) const {
+  return static_cast<double>(part_.tick + compared_[sample]) * part_.tick_s;
+}
+
+/// What the bodies meet on the way.
+void Trials::followTruth() {
+  ActiveEffects active;
+  for (const auto& effect : part_.effects) active.add(effect.get());
+  double fastest = 0;
   for (std::size_t k = 0; k < compared_.size(); ++k) {
     const Bodies& sample = truth_.trajectory.samples[k];
-    const double time_s = static_cast<double>(part.tick + compared_[k]) * part.tick_s;
     rate_ = std::max(rate_, fastestOf(sample).rate);
-    if (is_torque_free_ && !active.empty())
-      is_torque_free_ = active.evaluate(sample, time_s).t_Bcm_W.isZero(0);
+    if (active.empty()) continue;
+    if (is_torque_free_) is_torque_free_ = active.evaluate(sample, timeOf(k)).t_Bcm_W.isZero(0);
+    const double decay = fastestDecay(part_.effects, Instant(sample, timeOf(k))).rate;
+    if (!(decay > fastest)) continue;
+    fastest = decay;
+    stiffest_ = k;
+  }
+}
+
+/// What a simulator asks at its start, and of friction also later.
+bool Trials::isBorne(const Method& method) const {
+  if (!objection(method, part_.effects).empty()) return false;
+  if (!objection(method, rate_, part_.tick_s).empty()) return false;
+  if (part_.effects.empty()) return true;
+  const std::vector<Bodies>& samples = truth_.trajectory.samples;
+  const auto isTooStiff = [&](std::size_t k) {
+    const Instant now(samples[k], timeOf(k));
+    return tooStiff(method, part_.effects, now, part_.tick_s).has_value();
+  };
+  return !isTooStiff(0) && (stiffest_ == 0 || !isTooStiff(stiffest_));
+}
+
+void Trials::findLeast() {
+  for (const IntegratorRow& row : integrators()) {
+    const auto isTooFew = [&](int substeps) { return !isBorne({row.name, substeps}); };
+    const std::vector<int>& counts = substepCounts();
+    // Most take a single one.
+    const auto least = isTooFew(counts[0])
+                           ? std::partition_point(counts.begin(), counts.end(), isTooFew)
+                           : counts.begin();
+    least_[row.name] = static_cast<int>(least - counts.begin());
   }
 }
 
@@ -126,6 +168,10 @@ double Trials::costOf(const Method& method) const {
       part_.effects.empty() || (is_torque_free_ && (row.is_cheap_without_torque || skips_turning));
   return method.substeps *
          ((is_cheap ? row.cost : row.forced_cost) + row.evaluations * effects_cost_);
+}
+
+double Trials::reckonedSteps() const {
+  return kStepsOfReference * static_cast<double>(allowance_.ticks * part_.bodies.count());
 }
 
 double Trials::stepsOf(const Method& method) const {
@@ -143,7 +189,7 @@ Deviation Trials::errorOf(const Method& method) {
       flown_.emplace(std::pair(method.integrator, method.substeps), Deviation());
   Deviation& error = found->second;
   if (!is_new) return error;
-  body_steps_ += stepsOf(method);
+  (isWithin(method) ? body_steps_ : stiff_steps_) += stepsOf(method);
   Flight flight(part_, method);
   Deviation whole, half;
   const std::vector<Bodies>& truth = truth_.trajectory.samples;
@@ -170,7 +216,7 @@ std::vector<Trials::Rung> Trials::rungs(const std::string& except) const {
     if (order == 0) continue;
     // Where nothing acts, all the exact ones are one.
     if (part_.effects.empty() && row.free_flight_is_exact && row.name != "exact") continue;
-    const int least = indexOf(std::isinf(row.max_turn) ? 1 : rate_ * part_.tick_s / row.max_turn);
+    const int least = least_.at(row.name);
     rungs.push_back({&row, order, least - 1, least, count});
   }
   return rungs;
@@ -205,8 +251,20 @@ std::optional<Offer> Trials::cheapest(const Budget& budget, const std::string& e
 }
 
 bool Trials::isAffordable(const Method& method) const {
-  return flown_.count({method.integrator, method.substeps}) > 0 ||
-         body_steps_ + stepsOf(method) <= allowance_.steps;
+  return flown_.count({method.integrator, method.substeps}) > 0 || isWithin(method) ||
+         isFirstOfStiff(method);
+}
+
+bool Trials::isWithin(const Method& method) const {
+  return reckonedSteps() + body_steps_ + stepsOf(method) <= allowance_.steps;
+}
+
+/// The first flight of a method that is unstable with fewer steps has an allowance of its own: the
+/// cheap ones, which are tried before, may have used up the other.
+bool Trials::isFirstOfStiff(const Method& method) const {
+  const int least = least_.at(method.integrator);
+  return least > 0 && method.substeps == substepCounts()[static_cast<std::size_t>(least)] &&
+         stiff_steps_ + stepsOf(method) <= allowance_.stiff_steps;
 }
 
 std::optional<Offer> Trials::choose(const Budget& budget, const std::string& except) {
@@ -225,15 +283,15 @@ std::optional<Offer> Trials::choose(const Budget& budget, const std::string& exc
   return chosen;
 }
 
-Offer Trials::best(const Budget& budget) const {
-  Offer best;
+std::optional<Offer> Trials::best(const Budget& budget) const {
+  std::optional<Offer> best;
   double least = kInf;
   for (const auto& [key, error] : flown_) {
     const Method method = {key.first, key.second};
     const double share = shareOf(budget, error, doubt());
-    if (share > least || (share == least && costOf(method) >= best.cost)) continue;
+    if (best && (share > least || (share == least && costOf(method) >= best->cost))) continue;
     least = share;
-    best = {method, error, costOf(method)};
+    best = Offer{method, error, costOf(method)};
   }
   return best;
 }

@@ -10,7 +10,8 @@ namespace rigid_body_sim {
 /// running simulation: their distance from the simulation's is the error that it has made since.
 class TrueCopies {
  public:
-  /// As many at once; each takes at most kMostEvaluations a tick.
+  /// As many at once; each takes at most kMostEvaluations a tick, or what
+  /// stiff friction asks for.
   static constexpr std::size_t kMost = 8;
 
   struct Copy {
