@@ -113,6 +113,20 @@ TEST(DragLaws, HoldABodyInAnAbsurdGaleAtTheSpeedOfTheWind) {
   }
 }
 
+TEST(DragLaws, AreFollowedFromRestByStepsThatAdapt) {
+  // 1.8e5 /m: the first trial step overshoots so far that its stages are no numbers.
+  Scene scene = sceneFrom(
+      "{effects: {gravity: {acceleration: [0, 0, -9.8]}, drag: {air_density: 1.2, drag_area: "
+      "3.0e+5}}, bodies: {leaf: {point_mass: 1}}}");
+  scene.integrator = "adaptive";
+  Simulator simulator(scene);
+  simulator.step();
+  ASSERT_TRUE(simulator.frozenBodies().empty());
+  const double k = 0.5 * 1.2 * 3e5,
+               speed = std::sqrt(9.8 / k) * std::tanh(std::sqrt(9.8 * k) * 0.02);
+  EXPECT_NEAR(simulator.state(0).P_WB.z(), -speed, 1e-12 * speed + 1e-14);
+}
+
 TEST(DragLaws, AreRefusedByRungeKuttaMethodsWithTheLargestStableStep) {
   // rho CdA |u| / m = 1.2 * 0.5 * 10 / 0.01 = 600 1/s; rk4 bears 2.78: 4.633 ms.
   const auto text = [](const std::string& integrator, const std::string& step) {

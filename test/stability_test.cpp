@@ -112,12 +112,18 @@ TEST_P(IntegratorLaws, KeepsSwingsOfAnySizeBoundedUpToTheOneThatIsStated) {
   if (std::isinf(row.max_large_swing) || row.max_large_swing < 0.1)
     return;  // these are known to grow
   const Vector3d three(1, 1.5, 2.2), ball(1, 1, 1);
-  EXPECT_LE(heat(row, ball, row.max_large_swing), 2.5);  // 1 would be right; measured: at most 2
+  const double round = heat(row, ball, row.max_large_swing);
+  RecordProperty("round", std::to_string(round));
+  EXPECT_LE(round, 1.1);  // 1 would be right; measured: at most 1.023
   // On velocities the gyroscopic term grows by itself.
-  if (row.keeps_angular_momentum || row.name == "rk4" || row.name == "rk8")
-    EXPECT_LE(heat(row, three, row.max_large_swing), 2.5);
-  // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing has
-  // no bound.
+  if (row.keeps_angular_momentum || row.name == "rk4" || row.name == "rk8") {
+    const double triaxial = heat(row, three, row.max_large_swing);
+    RecordProperty("triaxial", std::to_string(triaxial));
+    // Measured: at most 1.03, and 1.71 of first order.
+    EXPECT_LE(triaxial, row.order == 1 ? 2 : 1.1);
+  }
+  // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing
+  // has no bound.
   if (row.keeps_angular_momentum && row.has_drifts) {
     EXPECT_GE(heat(row, three, 2.2 * row.max_large_swing), 5);
   }

@@ -147,15 +147,13 @@ TrueTrajectory truest(const std::function<Trajectory(const Method&)>& fly, const
     best.doubt.attitude_rad += commonRounding(best.trajectory, time_s);
     return best;
   }
+  const double turn = fastestOf(course.start).rate * course.tick_s;
+  if (turn > integratorNamed("adaptive").max_turn) return best;  // it would be refused
   // Half ticks, not another tolerance: one step a tick may do for both.
-  try {
-    TrueTrajectory adaptive =
-        comparedWith(fly({"adaptive", 1, 1e-14}), fly({"adaptive", 2, 1e-14}),
-                     "adaptive with a tolerance of 1e-14, against itself in half ticks");
-    return size(adaptive.doubt) < size(best.doubt) ? adaptive : best;
-  } catch (const std::invalid_argument&) {
-    return best;  // a spin that it is refused for; anything else `exact` is refused for, too
-  }
+  TrueTrajectory adaptive =
+      comparedWith(fly({"adaptive", 1, 1e-14}), fly({"adaptive", 2, 1e-14}),
+                   "adaptive with a tolerance of 1e-14, against itself in half ticks");
+  return size(adaptive.doubt) < size(best.doubt) ? adaptive : best;
 }
 
 TrueTrajectory flyTruly(const Scene& scene, Tick ticks, Tick every) {

@@ -7,35 +7,23 @@
 namespace rigid_body_sim {
 namespace {
 
-/// The pose moves with the momenta before the kick, at the constant rate of the beginning.
-class ExplicitEuler : public Integrator {
+enum class PoseMovesWith { kOldMomentum, kNewMomentum };
+
+/// At the constant rate of the beginning.
+template <PoseMovesWith pose_moves_with>
+class MomentumEuler : public Integrator {
  public:
-  explicit ExplicitEuler(const IntegratorOptions& options)
+  explicit MomentumEuler(const IntegratorOptions& options)
       : drift_(batch::kernels().driftAtConstantRate, options) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    constexpr bool kicks_first = pose_moves_with == PoseMovesWith::kNewMomentum;
     const Wrenches* wrenches =
         effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+    if (kicks_first && !effects.hasFlows()) return drift_(bodies, wrenches, h);
+    if (kicks_first && wrenches) kick(bodies, *wrenches, h);
     driftWithFlows(bodies, effects, time_s, h, [&] { drift_(bodies, nullptr, h); });
-    if (wrenches) kick(bodies, *wrenches, h);
-  }
-
- private:
-  Drift drift_;
-};
-
-/// With those after it.
-class SemiImplicit : public Integrator {
- public:
-  explicit SemiImplicit(const IntegratorOptions& options)
-      : drift_(batch::kernels().driftAtConstantRate, options) {}
-
-  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    const Wrenches* wrenches =
-        effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
-    if (!effects.hasFlows()) return drift_(bodies, wrenches, h);
-    if (wrenches) kick(bodies, *wrenches, h);
-    driftWithFlows(bodies, effects, time_s, h, [&] { drift_(bodies, nullptr, h); });
+    if (!kicks_first && wrenches) kick(bodies, *wrenches, h);
   }
 
  private:
@@ -45,11 +33,11 @@ class SemiImplicit : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> makeExplicitEuler(const IntegratorOptions& options) {
-  return std::make_unique<ExplicitEuler>(options);
+  return std::make_unique<MomentumEuler<PoseMovesWith::kOldMomentum>>(options);
 }
 
 std::unique_ptr<Integrator> makeSemiImplicit(const IntegratorOptions& options) {
-  return std::make_unique<SemiImplicit>(options);
+  return std::make_unique<MomentumEuler<PoseMovesWith::kNewMomentum>>(options);
 }
 
 }  // namespace rigid_body_sim

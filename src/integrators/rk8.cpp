@@ -205,10 +205,11 @@ class DormandPrince {
         return std::max(start.norm(), change.norm());
       };
       const BodyState& start = starts_[i].state;
-      return std::max({2 * relative<4>(e, kAttitude, 1),
-                       relative<3>(e, kMomentum, scale(starts_[i].m_B, kMomentum)),
-                       relative<3>(e, kVelocity, scale(start.p_WBcm, kVelocity)),
-                       relative<3>(e, kForce, scale(start.P_WB, kForce))});
+      const Eigen::Array4d parts(2 * relative<4>(e, kAttitude, 1),
+                                 relative<3>(e, kMomentum, scale(starts_[i].m_B, kMomentum)),
+                                 relative<3>(e, kVelocity, scale(start.p_WBcm, kVelocity)),
+                                 relative<3>(e, kForce, scale(start.P_WB, kForce)));
+      return parts.isNaN().any() ? std::numeric_limits<double>::quiet_NaN() : parts.maxCoeff();
     };
     const double e5 = size(h * sum(k, Dop853::e5));
     const double e3 = size(h * sum(k, Dop853::e3));
