@@ -107,17 +107,10 @@ void addAll(const Kernels& k) {
     for (int stage = 0; stage < 4; ++stage)
       k.rk4Stage(s.bodies(), s.stages(), s.wrenches(), s.tiles.data(), stage, kStep, r);
   });
-  add("coasting/" + name, [&k](Scene& s, Range r) {
-    k.recallSpins(s.bodies(), s.spins.data(), r);
-    k.driftSpins(s.bodies(), s.spins.data(), kStep, r);
-  });
-  add("coasting_only/" + name, [&k](Scene& s, Range r) {
-    if (s.spins[0] == 0) k.recallSpins(s.bodies(), s.spins.data(), {0, s.count});
-    k.driftSpins(s.bodies(), s.spins.data(), kStep, r);
-  });
+  add("coasting/" + name,
+      [&k](Scene& s, Range r) { k.driftSpins(s.bodies(), s.spins.data(), kStep, r); });
   add("exact/" + name, [&k](Scene& s, Range r) {
     double* spins = s.spins.data();
-    k.recallSpins(s.bodies(), spins, r);
     k.kickSpins(s.bodies(), s.wrenches(), spins, 0.5 * kStep, r);
     k.driftSpins(s.bodies(), spins, kStep, r);
     k.kickSpins(s.bodies(), s.wrenches(), spins, 0.5 * kStep, r);

@@ -41,7 +41,6 @@ void rk4Steps(Kernels::Rk4Stage stage_of, Bodies& bodies, const Pushes& pushes, 
 void spinSteps(const Kernels& k, Bodies& bodies, const Pushes& pushes, double h, Range range) {
   std::vector<double> tiles(tileSize(bodies.count(), kSpinNumbers));
   for (int i = 0; i < 12; ++i) {
-    k.recallSpins(columnsOf(bodies), tiles.data(), range);
     if (i < 2 || i == 8)
       k.kickSpins(columnsOf(bodies), columnsOf(pushes), tiles.data(), 0.5 * h, range);
     k.driftSpins(columnsOf(bodies), tiles.data(), i == 10 ? 2 * h : h, range);

@@ -103,7 +103,6 @@ TEST_F(BatchSteps, OfRk4WithoutEffectsAreThoseOfOneBody) {
 TEST_F(BatchSteps, OfExactAreThoseOfOneBody) {
   std::vector<double> tiles(tileSize(19, kSpinNumbers));
   for (int i = 0; i < kSteps; ++i) {
-    k.recallSpins(columns, tiles.data(), all);
     k.kickSpins(columns, wrenches, tiles.data(), kStep / 2, all);
     k.driftSpins(columns, tiles.data(), kStep, all);
     k.kickSpins(columns, wrenches, tiles.data(), kStep / 2, all);
@@ -114,10 +113,7 @@ TEST_F(BatchSteps, OfExactAreThoseOfOneBody) {
 TEST_F(BatchSteps, OfExactTakeUpWhatSomebodyElseHasMoved) {
   std::vector<double> tiles(tileSize(19, kSpinNumbers));
   const auto fly = [&](int steps) {
-    for (int i = 0; i < steps; ++i) {
-      k.recallSpins(columns, tiles.data(), all);
-      k.driftSpins(columns, tiles.data(), kStep, all);
-    }
+    for (int i = 0; i < steps; ++i) k.driftSpins(columns, tiles.data(), kStep, all);
   };
   fly(10);
   const Bodies later = bodies;
@@ -132,10 +128,7 @@ TEST_F(BatchSteps, OfCoastingStayOnTheOrbit) {
   const Bodies before = few;
   std::vector<double> tiles(tileSize(8, kSpinNumbers));
   constexpr int kMany = 200000;
-  for (int i = 0; i < kMany; ++i) {
-    k.recallSpins(columnsOf(few), tiles.data(), {0, 8});
-    k.driftSpins(columnsOf(few), tiles.data(), kStep, {0, 8});
-  }
+  for (int i = 0; i < kMany; ++i) k.driftSpins(columnsOf(few), tiles.data(), kStep, {0, 8});
   EXPECT_TRUE(sameBits(few.L_WBcm_W, before.L_WBcm_W));
   const auto energy = [](const Bodies& of, Eigen::Index i) {
     const BodyState state = of.state(i);

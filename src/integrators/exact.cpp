@@ -56,7 +56,6 @@ class Exact : public Integrator {
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     spins_.resize(bodies.count());
-    recall(bodies, allOf(bodies));
     if (effects.empty()) return drift(bodies, h);
     double t = time_s;
     for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
@@ -77,15 +76,8 @@ class Exact : public Integrator {
   void driftUnderFlows(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
     if (!effects.hasFlows()) return drift(bodies, h);
     effects.beforeDrift(bodies, time_s, h);
-    recall(bodies, allOf(bodies));
     drift(bodies, h);
     effects.afterDrift(bodies, time_s, h);
-    recall(bodies, allOf(bodies));
-  }
-
-  /// Takes up the bodies that somebody else has moved.
-  void recall(Bodies& bodies, batch::Range range) {
-    kernels_.recallSpins(columnsOf(bodies), spins_.data(), range);
   }
 
   void drift(Bodies& bodies, double h) {
@@ -94,7 +86,6 @@ class Exact : public Integrator {
       if (gyroscopic == Gyroscopic::kOn)
         return kernels_.driftSpins(columns, spins_.data(), h, range);
       kernels_.driftWithoutGyroscopicTerm(columns, h, range);
-      recall(bodies, range);
     });
   }
 

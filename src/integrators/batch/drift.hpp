@@ -52,9 +52,8 @@ RBS_INLINE void driftPosition(const Place& at, const BodyColumns& bodies, const 
 }
 
 template <class S>
-void driftPositions(const BodyColumns& of, double h, Range range) {
-  const BodyColumns bodies = of;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+void driftPositions(const BodyColumns& bodies, double h, Range range) {
+  forPacks<S>(range.begin, range.end, [&](const auto& at) {
     driftPosition(at, bodies, loadVector(at, bodies.P_WB, bodies.stride), h);
   });
 }

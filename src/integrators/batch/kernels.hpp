@@ -37,9 +37,8 @@ struct Kernels {
   void (*rk4Free)(const BodyColumns&, double h, Range);  ///< a step without effects
   void (*rk4FreeWithoutGyroscopicTerm)(const BodyColumns&, double h, Range);
 
-  // Kicks and exact free flight, with `tiles` of kSpinNumbers. A step begins with recallSpins(),
-  // which takes up the bodies whose attitude or angular momentum somebody else has changed.
-  void (*recallSpins)(const BodyColumns&, double* tiles, Range);
+  // Kicks and exact free flight, with `tiles` of kSpinNumbers. Both take up first the bodies whose
+  // attitude or angular momentum somebody else has changed.
   void (*kickSpins)(const BodyColumns&, const WrenchColumns&, double* tiles, double h, Range);
   void (*driftSpins)(const BodyColumns&, double* tiles, double h, Range);
 };

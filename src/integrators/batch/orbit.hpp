@@ -36,9 +36,9 @@ struct Direction {
 template <class S>
 RBS_INLINE Direction<S> directionOf(const Vector<S>& v) {
   const S square = dot(v, v);
-  const S length = root(square);
-  Direction<S> d = {length, (1 / length) * v};
   const auto is_usual = (square > 1e-280) & (square < 1e280);
+  const S length = root(select(is_usual, square, S(1.0)));
+  Direction<S> d = {length, (1 / length) * v};
   if (!all(is_usual)) {
     const S scale = inversePower(largest(v));
     const Vector<S> near_one = scale * v;
@@ -198,7 +198,7 @@ RBS_INLINE OrbitStep<S> doubled(const OrbitStep<S>& half, const Orbit<S>& o) {
 /// @param time as there
 template <class S>
 RBS_INLINE OrbitStep<S> orbitStep(const Orbit<S>& o, S time) {
-  S u = o.lambda * time;
+  S u = select(o.is_fixed_axis, S(0.0), o.lambda * time);
   // Beyond 1e16 a double has no phase any more.
   u = select(magnitude(u) > 1e16, withSign(S(1e16), u), u);
   S doublings_left(1.0);  // as a power of two

@@ -25,7 +25,10 @@ template <class S>
 RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& I,
                                          const InverseMoments<S>& a, double h) {
   const Direction<S> momentum = directionOf(m_B);
-  const Orbit<S> o = orbitOf(momentum.m, a);
+  Orbit<S> o = orbitOf(momentum.m, a);
+  const S one(1.0);
+  const auto turns = !o.is_fixed_axis;
+  o.md = select(turns, o.md, one);  // lest a momentum across d divides by zero
   const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
   const Jacobi<S>& f = step.f;
   const S s = f.sn / o.lambda;
@@ -35,14 +38,14 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   const S m2 = (o.m2 * f.cn * f.dn + s * o.mc * o.md) * q;
 
   // The angle between the momenta as seen along d, as the argument of a complex number.
-  const S one(1.0);
   const S sign_d = withSign(one, o.md);
   const S num = -(s * o.dc * o.m2 * m2);
   const S den = o.R + o.dc * m2 * m2 - o.dc * s * o.m2 * mc * md;
   const S cross = sign_d * (o.mc * m2 - o.m2 * mc);
   const S dot = o.mc * mc + o.m2 * m2;
-  HalfAngle<S> spin = slowTurn(o, a, momentum.G, h, step) *
-                      rootDirection(den * dot + num * cross, num * dot - den * cross);
+  HalfAngle<S> seen = rootDirection(den * dot + num * cross, num * dot - den * cross);
+  seen.cos = select(turns, seen.cos, one);  // on the axis there is nothing to see
+  HalfAngle<S> spin = slowTurn(o, a, momentum.G, h, step) * seen;
   spin.sin = sign_d * spin.sin;
 
   // P^-1 (spin about d) P', with P the shortest rotation of the momentum before to the axis d, P'
@@ -53,7 +56,6 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   const S x = sign_d * mc, y = sign_d * m2;
   const Quaternion<S> first = {-(sign_d * o.m2), sign_d * o.mc, S(0.0), before};
   const Quaternion<S> then = {C * y + D * x, D * y - C * x, D * after, C * after};
-  const auto turns = !o.is_fixed_axis;
   const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, first * then);
   const Vector<S> next = momentum.G * momentumFromOrbit(o.is_around_1, mc, m2, md);
   if (all(turns)) return {turn, next};

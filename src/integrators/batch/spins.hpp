@@ -169,27 +169,49 @@ RBS_INLINE void recallAll(const Tile& tile, M mask, const Quaternion<S>& q_WB, c
   storeCoasting(tile, mask, standingStill<S>());
 }
 
-/// Takes up the bodies that somebody else has moved.
-template <class S>
-void recallSpins(const BodyColumns& of, double* tiles, Range range) {
-  const BodyColumns bodies = of;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
-    using T = NumberOf<decltype(at)>;
-    const auto tile = inTile<kSpinNumbers>(at, tiles);
-    const Quaternion<T> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
-    const Vector<T> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
-    const Quaternion<T> old_q = tile.loadQuaternion(kSpinQ);
-    const Vector<T> old_L = tile.loadVector(kSpinL);
-    const auto is_here =
-        ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) & ((old_q.z == q_WB.z) & (old_q.w == q_WB.w));
-    const auto is_known = is_here & ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
-    if (all(is_known)) return;
-    const auto is_kicked = is_here & !is_known;
-    if (any(is_kicked)) recallMomenta(tile, is_kicked, q_WB, L_W);
-    if (all(is_here)) return;
-    const auto I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
-    recallAll(tile, !is_here, q_WB, L_W, inverseMoments(I));
-  });
+template <class Place, class M>
+[[gnu::noinline]] void recallMoved(Place at, BodyColumns bodies, double* tiles, M is_here,
+                                   M is_known) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const Quaternion<S> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+  const Vector<S> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
+  const auto is_kicked = is_here & !is_known;
+  if (any(is_kicked)) recallMomenta(tile, is_kicked, q_WB, L_W);
+  if (all(is_here)) return;
+  const auto I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+  recallAll(tile, !is_here, q_WB, L_W, inverseMoments(I));
+}
+
+/// Takes up lanes that somebody else has moved.
+template <class Place>
+RBS_INLINE void recallSpins(const Place& at, const BodyColumns& bodies, double* tiles) {
+  using S = typename Place::Number;
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const Quaternion<S> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+  const Vector<S> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
+  const Quaternion<S> old_q = tile.loadQuaternion(kSpinQ);
+  const Vector<S> old_L = tile.loadVector(kSpinL);
+  const auto is_here =
+      ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) & ((old_q.z == q_WB.z) & (old_q.w == q_WB.w));
+  const auto is_known = is_here & ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
+  if (!all(is_known)) recallMoved(at, bodies, tiles, is_here, is_known);
+}
+
+/// L += h t where there is a torque.
+template <class Place, class S, class M>
+[[gnu::noinline]] void kickMomenta(Place at, BodyColumns bodies, double* tiles, Vector<S> impulse,
+                                   M turns) {
+  recallSpins(at, bodies, tiles);
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const Vector<S> m_B = momentumAfterCoasting(tile, turns);
+  const Vector<S> L_W = tile.loadVector(kSpinL);
+  const Vector<S> L_next = select(turns, L_W + impulse, L_W);
+  tile.storeVector(kSpinL, L_next);
+  storeVector(at, bodies.L_WBcm_W, bodies.stride, L_next);
+  const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
+  tile.storeVector(kSpinM, select(turns, m_B + rotatedBack(q_WB, impulse), m_B));
+  storeWhere(tile, turns, kSpinDrift, S(0.0));
 }
 
 template <class S>
@@ -202,17 +224,7 @@ void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, do
     kicked(at, bodies.P_WB, bodies.stride, wrenches.f_W, wrenches.stride, h);
     const Vector<T> t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
     const auto turns = !isZero(t_W);
-    if (!any(turns)) return;
-    const auto tile = inTile<kSpinNumbers>(at, tiles);
-    const Vector<T> m_B = momentumAfterCoasting(tile, turns);
-    const Vector<T> impulse = h * t_W;
-    const Vector<T> L_W = tile.loadVector(kSpinL);
-    const Vector<T> L_next = select(turns, L_W + impulse, L_W);
-    tile.storeVector(kSpinL, L_next);
-    storeVector(at, bodies.L_WBcm_W, bodies.stride, L_next);
-    const Quaternion<T> q_WB = tile.loadQuaternion(kSpinQ);
-    tile.storeVector(kSpinM, select(turns, m_B + rotatedBack(q_WB, impulse), m_B));
-    storeWhere(tile, turns, kSpinDrift, T(0.0));
+    if (any(turns)) kickMomenta(at, bodies, tiles, h * t_W, turns);
   });
 }
 
@@ -331,6 +343,7 @@ class Phases {
 template <class Place>
 RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h,
                           Phases& next) {
+  recallSpins(at, bodies, tiles);
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const auto spins = !isZero(tile.loadVector(kSpinL));
   const auto goes_on = spins & (tile.load(kSpinDrift) == h);
@@ -368,8 +381,7 @@ RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies,
 }
 
 template <class S>
-void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
-  const BodyColumns bodies = of;
+void driftSpins(const BodyColumns& bodies, double* tiles, double h, Range range) {
   for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogether) {
     const std::ptrdiff_t end = i + kTogether < range.end ? i + kTogether : range.end;
     Phases next(i);

@@ -30,7 +30,6 @@ void fillTable(Kernels& table) {
   table.rk4StageWithoutGyroscopicTerm = rk4Stage<S, false, EffectsSee::kVelocityToo>;
   table.rk4Free = rk4Free<S, true>;
   table.rk4FreeWithoutGyroscopicTerm = rk4Free<S, false>;
-  table.recallSpins = recallSpins<S>;
   table.kickSpins = kickSpins<S>;
   table.driftSpins = driftSpins<S>;
 }
