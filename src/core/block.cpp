@@ -10,12 +10,13 @@
 namespace rigid_body_sim {
 namespace {
 
-/// As many bodies as the second cache holds with all that a step needs of them. An odd number of
-/// its lines, lest columns fall onto the same places of it: with 128 bodies a step takes twice as
-/// long.
+/// As many bodies as the second cache holds with all that a step needs of them. Measured for 256 to
+/// 65,536 bodies with an L1 of 32 kB and an L2 of 1 MB: any number from 64 to 520 is within a tenth
+/// but for powers of two, whose columns fall onto the same places of the first cache: 128 bodies
+/// take up to 15 % longer under semi_implicit.
 constexpr std::size_t kBlockSize = 136;
 
-/// Three or four columns of the state, in the order of a snapshot.
+/// The columns of the state, in the order of a snapshot.
 template <class AnyBodies, class F>
 void forColumns(AnyBodies& bodies, F f) {
   f(bodies.p_WBcm);
