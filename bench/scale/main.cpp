@@ -38,9 +38,10 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 void printHead() {
-  std::printf("| bodies | topics | node | start | messages/s | of wanted | real time | overruns | latest "
-              "| memory | subscribers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
-              "| --- |\n");
+  std::printf(
+      "| bodies | topics | node | start | messages/s | of wanted | real time | overruns | latest "
+      "| memory | subscribers |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
+      "| --- |\n");
 }
 
 void print(const Load& load, const Result& result) {

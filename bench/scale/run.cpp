@@ -46,8 +46,7 @@ long residentMemory(pid_t pid) {
 /// The node's own account, from /diagnostics.
 class Account {
  public:
-  Account()
-      : subscriber_(ros::NodeHandle().subscribe("/diagnostics", 100, &Account::take, this)) {}
+  Account() : subscriber_(ros::NodeHandle().subscribe("/diagnostics", 100, &Account::take, this)) {}
 
   double value(const std::string& key) const {
     const auto found = values_.find(key);
@@ -130,8 +129,8 @@ double messagesATick(const Load& load) {
 
 std::string sceneText(const Load& load) {
   std::ostringstream text;
-  text << "step_s: " << 1 / kRate << "\n" << load.node_parameters
-       << "effects:\n  gravity: {acceleration: [0, 0, -1.0]}\nbodies:\n";
+  text << "step_s: " << 1 / kRate << "\n"
+       << load.node_parameters << "effects:\n  gravity: {acceleration: [0, 0, -1.0]}\nbodies:\n";
   for (int i = 0; i < load.bodies; ++i) {
     const double u = (i % 97) / 97.0, v = (i % 89) / 89.0;
     text << "  " << nameOf(i) << ": {mass: " << 1 + u << ", inertia: [" << 0.1 + 0.01 * u << ", "

@@ -15,14 +15,14 @@ struct Load {
 
 /// What it took.
 struct Result {
-  double start_s = 0;         ///< from the program's start to its first tick
-  double cpu = 0;             ///< of one core: processor time of the node, all threads, by wall time
+  double start_s = 0;  ///< from the program's start to its first tick
+  double cpu = 0;      ///< of one core: processor time of the node, all threads, by wall time
   double subscribers_cpu = 0;
-  double messages = 0;        ///< received a second, by all subscribers
-  double expected = 0;        ///< that were to be received a second
+  double messages = 0;  ///< received a second, by all subscribers
+  double expected = 0;  ///< that were to be received a second
   double real_time_factor = 0;
-  long overruns = 0;          ///< ticks that were published more than a period late
-  double latest_ms = 0;       ///< the latest of all, after it was due
+  long overruns = 0;     ///< ticks that were published more than a period late
+  double latest_ms = 0;  ///< the latest of all, after it was due
   long resident_kB = 0;
 };
 

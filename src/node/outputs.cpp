@@ -149,14 +149,19 @@ void Outputs::publish(bool now) {
     is_any = true;
   };
   send(clock_, clock_rate_, [&] { return toClock(stamp()); });
-  send(tf_, tf_rate_, [&]() -> const auto& { return messages_.tf(); });
-  send(states_, states_rate_, [&]() -> const auto& { return messages_.states(); });
-  send(effect_wrenches_, effect_wrenches_rate_,
-       [&]() -> const auto& { return messages_.effectWrenches(); });
-  is_any |= publish(twists_, now, [&](auto i) -> const auto& { return messages_.twist(i); });
-  is_any |= publish(odoms_, now, [&](auto i) -> const auto& { return messages_.odometry(i); });
-  is_any |= publish(applied_wrenches_, now,
-                    [&](auto i) -> const auto& { return messages_.appliedWrench(i); });
+  send(
+      tf_, tf_rate_, [&]() -> const auto& { return messages_.tf(); });
+  send(
+      states_, states_rate_, [&]() -> const auto& { return messages_.states(); });
+  send(
+      effect_wrenches_,
+      effect_wrenches_rate_, [&]() -> const auto& { return messages_.effectWrenches(); });
+  is_any |= publish(
+      twists_, now, [&](auto i) -> const auto& { return messages_.twist(i); });
+  is_any |= publish(
+      odoms_, now, [&](auto i) -> const auto& { return messages_.odometry(i); });
+  is_any |= publish(
+      applied_wrenches_, now, [&](auto i) -> const auto& { return messages_.appliedWrench(i); });
   if (!is_any) return;
   sendPublished();
   gate_.pass();

@@ -11,8 +11,8 @@
 namespace rigid_body_sim {
 
 /// A topic that is advertised. Beside a ros::Publisher it knows its place among the node's topics:
-/// to publish, and to ask for the number of subscribers, roscpp compares the topic's name with those
-/// of all others, which for three topics of each of 1,000 bodies took a third of a core.
+/// to publish, and to ask for the number of subscribers, roscpp compares the topic's name with
+/// those of all others, which for three topics of each of 1,000 bodies took a third of a core.
 template <class Message>
 class Topic {
  public:
@@ -35,7 +35,8 @@ class Topic {
   ros::PublicationPtr publication_;
 };
 
-/// Wakes the thread that sends: once for all that is published, as each time it looks at all topics.
+/// Wakes the thread that sends: once for all that is published, as each time it looks at all
+/// topics.
 inline void sendPublished() { ros::PollManager::instance()->getPollSet().signal(); }
 
 /// When a topic's message is due.
