@@ -128,8 +128,6 @@ TEST_F(AccuracyProgram, RefusesNumbersOutOfRangeWithTheRange) {
         Wrong{"--over=nan", "'nan' is not a number"},
         Wrong{"--tolerances=0", "--tolerances: '0' is not a number from 1e-16 to 1\n"},
         Wrong{"--longest=-1", "--longest: '-1' is not a number from 0.001 to 1000000 s"},
-        Wrong{"--only-step=-5",
-              "--only-step: '-5' is not a whole number from 1 to 1000000000 ticks"},
         Wrong{"--no-plots", "--no-plots requires --output"}}) {
     const Ended ended = run({kReport, "--case=sphere", wrong.argument});
     EXPECT_NE(ended.code, 0) << wrong.argument;
@@ -219,9 +217,9 @@ TEST_F(AccuracyProgram, CountsInstructionsWithValgrind) {
     if (line.rfind("split2", 0) == 0) counts.push_back(std::stod(cell));
   }
   ASSERT_EQ(counts.size(), 2u);
-  EXPECT_GT(counts[0], 200);  // 1244 with gcc 12.2 -O3
+  EXPECT_GT(counts[0], 200);  // 1048 with gcc 12.2 -O3, half of them around the step
   EXPECT_LT(counts[0], 5000);
-  EXPECT_GT(counts[1], 2 * counts[0]);
+  EXPECT_GT(counts[1], 1.5 * counts[0]);
   EXPECT_LT(counts[1], 3 * counts[0]);
 }
 

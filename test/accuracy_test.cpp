@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "accuracy_scenes.hpp"
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 
 namespace rigid_body_sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 #include "flown_scenes.hpp"
 
 namespace rigid_body_sim {
@@ -275,8 +275,10 @@ TEST(AddedMass, InTheTensorAloneNeedsNoEffect) {
   I_L.diagonal() += Vector3d(0.4, 0.9, 0.2);
   EXPECT_LE(difference(Simulator(scene).bodies().moments(0), principalInertia(I_L).I_BBcm_B),
             1e-15);
-  EXPECT_TRUE(sceneFrom("{bodies: {" + genericBodyNamed("b") + "}, effects: {added_mass: {}}}")
-                  .effects.empty());
+  const Scene none =
+      sceneFrom("{bodies: {" + genericBodyNamed("b") + "}, effects: {added_mass: {}}}");
+  EXPECT_TRUE(none.effects.empty());
+  EXPECT_TRUE(contains(none.elided.at(0), {"added_mass: no body has"}));
 }
 
 TEST(AddedMass, RestrictedToSomeBodiesIsTheSame) {
@@ -300,6 +302,32 @@ TEST(AddedMass, CannotBeSwitchedOff) {
   EXPECT_TRUE(contains(refusal([&] { simulator.switchEffect("added_mass", false); }),
                        {"'added_mass'", "momenta"}));
   EXPECT_NO_THROW(simulator.switchEffect("added_mass", true));
+}
+
+TEST(AddedMass, BearsOnlyWindThatIsTheSameAsStillWater) {
+  const auto start = [](const std::string& linear, const std::string& wind) {
+    return Simulator(
+        sceneFrom("{bodies: {fish: {mass: 1, inertia: [1, 2, 2.5], linear_velocity: "
+                  "[2, 0.5, 0]}}, effects: {added_mass: {linear: " +
+                  linear + "}, drag: {air_density: 1000, drag_area: 0.1, wind: " + wind + "}}}"));
+  };
+  const std::string steady = "[2, 0.5, 0]";
+  EXPECT_TRUE(contains(refusal([&] { start("[1, 2, 3]", steady); }),
+                       {"effects.drag.wind", "`added_mass`", "'fish'", "equal"}));
+  EXPECT_TRUE(contains(refusal([&] { start("[1, 1, 1]", "{gusts: {deviation: 1.0, time: 5}}"); }),
+                       {"effects.drag.wind", "`added_mass`", "'fish'", "no gusts"}));
+  EXPECT_TRUE(contains(
+      refusal([&] {
+        start("[1, 1, 1]", "{velocity: [1, 0, 0], shear: {reference_height: 9, exponent: 0.1}}");
+      }),
+      {"effects.drag.wind", "no shear"}));
+  EXPECT_NO_THROW(start("[1, 2, 3]", "[0, 0, 0]"));
+  EXPECT_NO_THROW(start("[1, 2, 3]", "{gusts: {deviation: 0, time: 5}}"));
+  Simulator with_the_stream = start("[1, 1, 1]", steady);
+  const Vector3d P = with_the_stream.state(0).P_WB;
+  for (int i = 0; i < 100; ++i) with_the_stream.step();
+  EXPECT_EQ(with_the_stream.state(0).P_WB, P);
+  EXPECT_EQ(with_the_stream.state(0).L_WBcm_W, Vector3d::Zero());
 }
 
 TEST(AddedMass, BadParametersAreRefusedWithPathValueAndUnit) {

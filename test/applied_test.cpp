@@ -25,6 +25,12 @@ std::vector<std::uint64_t> sequences(const AppliedWrenches& applied) {
 
 using Sequences = std::vector<std::uint64_t>;
 
+bool isReplacedBy(const WrenchInput& old, const WrenchInput& input) {
+  std::vector<WrenchInput> held = {old};
+  settle(held, {input});
+  return held.size() == 1;
+}
+
 TEST(IsReplacedBy, ALaterMessageOfThePublisher) {
   EXPECT_TRUE(isReplacedBy(held("/a/wrench", 7), held("/a/wrench", 8)));
 }

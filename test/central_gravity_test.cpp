@@ -146,13 +146,74 @@ TEST(CentralGravity, TooLongAStepIsRefusedWithTheLargestStableOne) {
       "{effects: {central_gravity: {mu: 1.0e+6}}, bodies: {p: {point_mass: 1, position: [0, 0, "
       "1]}}}");
   EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
-                       {"central_gravity", "1000 rad/s", "largest stable step is 0.002 s"}));
+                       {"central_gravity", "1000 rad/s", "largest stable step is 0.0005 s"}));
+}
+
+/// [rad/s] by stiffness(), of a point mass at `p_W`.
+double rateAt(const std::string& field, const Vector3d& p_W) {
+  const Scene scene = sceneFrom("{effects: {central_gravity: {mu: 5, " + field +
+                                "}}, bodies: {p: {point_mass: 1, position: " + yamlOf(p_W) + "}}}");
+  return scene.effects.at(0)->stiffness(Instant(Simulator(scene).bodies(), 0)).oscillation;
+}
+
+TEST(CentralGravity, StiffnessBoundsTheGradientWithOblateness) {
+  const double h = 1e-4;
+  Sampler sample(5);
+  for (int k = 0; k < 200; ++k) {
+    const Vector3d p_W = 2 * sample.attitude().toRotationMatrix().col(0);
+    for (const double j2 : {0.3, -0.3}) {
+      const std::string field = "j2: " + std::to_string(j2) + ", equatorial_radius: 2";
+      const Scene scene =
+          sceneFrom("{effects: {central_gravity: {mu: 5, " + field +
+                    "}}, bodies: {p: {point_mass: 1, position: " + yamlOf(p_W) + "}}}");
+      const auto forceAt = [&](const Vector3d& p) {
+        Bodies moved = Simulator(scene).bodies();
+        moved.p_WBcm.row(0) = p;
+        return Vector3d(wrenchesOf(*scene.effects.at(0), moved).f_W.row(0));
+      };
+      Matrix3d K;  // of a unit mass
+      for (int j = 0; j < 3; ++j)
+        K.col(j) =
+            (forceAt(p_W - h * Vector3d::Unit(j)) - forceAt(p_W + h * Vector3d::Unit(j))) / (2 * h);
+      const double swing = principalInertia(K).I_BBcm_B(2);  // its largest eigenvalue
+      EXPECT_LE(swing, std::pow(rateAt(field, p_W), 2) * (1 + 1e-6)) << p_W.transpose();
+    }
+  }
+  const double central = rateAt("j2: 0", {0, 0, 2}),
+               both = rateAt("j2: 0.3, equatorial_radius: 2", {0, 0, 2});
+  EXPECT_NEAR(both * both, central * central * (1 + 12 * 0.3), 1e-14);
+}
+
+TEST(CentralGravity, OblatenessInTheWrongUnitIsRefused) {
+  const auto start = [](const std::string& radius, const std::string& bodies) {
+    return sceneFrom(
+        "{effects: {central_gravity: {mu: 3.986004418e+14, j2: 0.00108262982, equatorial_radius: " +
+        radius + "}}, bodies: {" + bodies + "}}");
+  };
+  const std::string bodies =
+      "rock: {point_mass: 1, central_gravity: false}, sat: {point_mass: 1, position: [7.0e+6, 0, "
+      "0]}";
+  EXPECT_NO_THROW(start("6378137", bodies));
+  EXPECT_NO_THROW(start("6378137", "pole: {point_mass: 1, position: [0, 0, 6356752]}"));
+  EXPECT_TRUE(contains(
+      refusal([&] { start("6378137000", bodies); }),
+      {"central_gravity.center", "'sat'", "7e+06 m", "equatorial_radius", "2696", "units"}));
+  EXPECT_NO_THROW(start("6378137", "rock: {point_mass: 1, central_gravity: false}"));
+}
+
+TEST(CentralGravity, BodyThatStartsAtItsCentreIsRefusedWithTheCentre) {
+  const std::string why = refusal([] {
+    sceneFrom(
+        "{effects: {central_gravity: {mu: 1, center: [1, 2, 4]}}, bodies: {b: {mass: 1, inertia: "
+        "[1, 1, 1], com: [0, 0, 1], position: [1, 2, 3]}}}");
+  });
+  EXPECT_TRUE(contains(why, {"effects.central_gravity.center", "body 'b' starts 0 m from there"}));
 }
 
 TEST(CentralGravity, BodyThatComesToTheCentreIsFrozenAndTheOthersFlyOn) {
   // The pull is lost in the rounding of its velocity, so that a tick brings it to zero exactly.
   Simulator simulator(sceneFrom(
-      "{effects: {central_gravity: {mu: 1.0e-24, j2: 0.1, equatorial_radius: 0.5}}, bodies: {at: "
+      "{effects: {central_gravity: {mu: 1.0e-24, j2: 0.1, equatorial_radius: 0.02}}, bodies: {at: "
       "{point_mass: 1, position: [0.02, 0, 0], linear_velocity: [-1, 0, 0]}, off: {point_mass: 1, "
       "position: [0, 0, 2]}}}"));
   simulator.step();
@@ -175,7 +236,8 @@ TEST(CentralGravity, WithoutAMuOrABodyIsNotThere) {
 TEST(CentralGravity, RefusesWhatIsNoField) {
   const auto said = [](const std::string& block) {
     return refusal([&] {
-      sceneFrom("{effects: {central_gravity: {" + block + "}}, bodies: {a: {point_mass: 1}}}");
+      sceneFrom("{effects: {central_gravity: {" + block +
+                "}}, bodies: {a: {point_mass: 1, position: [0, 0, 9]}}}");
     });
   };
   const std::string path = "effects.central_gravity.";

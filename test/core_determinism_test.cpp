@@ -1,9 +1,12 @@
 // The same scene and the same inputs give the same bits, in the core alone.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 
-#include "generic.hpp"
+#include "accuracy_scenes.hpp"
+#include "integrators/batch/kernels.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -137,7 +140,70 @@ TEST(Determinism, GoldenHashOfSplit2) {
     for (Eigen::Index i = 0; i < 3; ++i)
       EXPECT_LT(simulator.state(i).L_WBcm_W.norm() / simulator.bodies().moments(i)(1) * 0.02, 0.6);
   }
-  EXPECT_EQ(hashOf(simulator), 13761332563890383520u);
+  EXPECT_EQ(hashOf(simulator), 146578854778225960u);
+}
+
+/// Bodies of many kinds under gravity, and a wrench on every fifth.
+std::uint64_t hashOfCrowd(const std::string& integrator, Eigen::Index count, int threads) {
+  Scene scene;
+  scene.integrator = integrator;
+  scene.threads = threads;
+  Sampler sample(5);
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    all.push_back(i);
+    const Vector3d I(1, 1.1 + 0.4 * std::abs(sample.number()), 1.6);
+    scene.bodies.push_back(bodyOf("b" + std::to_string(i), I,
+                                  i % 7 == 0 ? Vector3d::Zero() : Vector3d(2 * sample.vector())));
+    scene.bodies.back().v_WBcm = sample.vector();
+  }
+  scene.effects.push_back(uniformGravity({0.1, 0.2, -9.8}, all));
+  Simulator simulator(scene);
+  for (Eigen::Index i = 0; i < count; i += 5) {
+    WrenchInput push;
+    push.body = i;
+    push.applied.wrench = {sample.vector(), sample.vector()};
+    push.start = i % 3;
+    simulator.apply(push);
+  }
+  simulator.advance(12);
+  return hashOf(simulator);
+}
+
+TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
+  for (const std::string integrator : {"semi_implicit", "rk4", "exact"})
+    for (const int threads : {2, 3, 8})
+      EXPECT_EQ(hashOfCrowd(integrator, 2500, threads), hashOfCrowd(integrator, 2500, 1))
+          << integrator << " " << threads;
+}
+
+/// Run by the next test, in a process of its own.
+TEST(Determinism, DISABLED_HashesOfCrowds) {
+  for (const IntegratorRow& row : integrators())
+    for (const Eigen::Index count : {1, 2, 3, 7, 150})
+      std::printf("HASH %s %ld %lx\n", row.name.c_str(), static_cast<long>(count),
+                  static_cast<unsigned long>(hashOfCrowd(row.name, count, 1)));
+}
+
+/// What that test prints with the kernels of this name.
+std::string hashesWith(const std::string& kernels) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string command = "RIGID_BODY_SIM_KERNELS=" + kernels + " '" + program +
+                              "' --gtest_also_run_disabled_tests"
+                              " --gtest_filter='*DISABLED_HashesOfCrowds' | grep HASH";
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  pclose(pipe);
+  return text;
+}
+
+TEST(Determinism, EveryInstructionSetGivesTheSameBits) {
+  const std::string plain = hashesWith("plain");
+  EXPECT_EQ(std::count(plain.begin(), plain.end(), '\n'), 5 * integrators().size());
+  for (const batch::Kernels& one : batch::availableKernels())
+    EXPECT_EQ(hashesWith(one.name), plain) << one.name;
+  EXPECT_EQ(hashesWith("of_no_processor"), "");
 }
 
 }  // namespace

@@ -40,4 +40,13 @@ inline std::map<std::string, std::string> blocksOf(Sampler& sample) {
   return blocks;
 }
 
+/// Parameters in blocks of effects that do not go with added mass.
+inline void eraseWhatAddedMassRefuses(std::string& effects) {
+  const std::string gradient = ", gravity_gradient: true", wind = ", wind: [";
+  if (const auto at = effects.find(gradient); at != std::string::npos)
+    effects.erase(at, gradient.size());
+  if (const auto at = effects.find(wind); at != std::string::npos)
+    effects.erase(at, effects.find(']', at) + 1 - at);
+}
+
 }  // namespace rigid_body_sim

@@ -44,8 +44,8 @@ MOST_S = 30  # until the node has said what it flies, on a busy machine
 EXTERN = 'extern "C" const int* rigidBodySimEffect() '
 UNFIT = {
     "version": (EXTERN + "{ static const int v[] = {1000, 16}; return v; }",
-                "was built for version 1000 of the interface, and this is 2; build it again"),
-    "alignment": (EXTERN + "{ static const int v[] = {2, 1024}; return v; }",
+                "was built for version 1000 of the interface, and this is 3; build it again"),
+    "alignment": (EXTERN + "{ static const int v[] = {3, 1024}; return v; }",
                   "was built with matrices aligned to 1024 bytes"),
     "symbol": ("", "offers no effect; its source must end with RIGID_BODY_SIM_EFFECT(...)"),
     "undefined": ("int missing(); int there = missing();", "cannot be loaded: "),

@@ -44,6 +44,7 @@ TEST_F(Effects, AreSwitchedOffAndOnFromTheNextTickOnUntilTheReset) {
   EXPECT_TRUE(off.success) << off.message;
   EXPECT_EQ(off.message.find("gravity"), std::string::npos) << off.message;
   EXPECT_NE(off.message.find("damping (1 body)"), std::string::npos) << off.message;
+  EXPECT_EQ(turn("gravity", false).message.rfind("gravity is off already: ", 0), 0u);
   P_WB = momentum(5);
   wanted = fallen(wanted, 5, Vector3d::Zero(), 0.5);
   EXPECT_LT((P_WB - wanted).norm(), rounding);

@@ -104,6 +104,21 @@ TEST(Elision, IsSaidOnceWithItsReason) {
                 "gyroscopic for 1 of 3: spherical", "rotation for 1 of 3: point masses"}));
 }
 
+TEST(Elision, OfAllMotionIsSaidIfNothingMovesAndNothingActs) {
+  const auto said = [](const std::string& effects, const std::string& more) {
+    const std::vector<std::string> lines = elisions(
+        Simulator(sceneFrom("{effects: {" + effects + "}, bodies: {a: {mass: 1, inertia: [1, 2, " +
+                            "2.5]}, b: {mass: 1, inertia: [1, 2, 2.5]" + more + "}}}"))
+            .scene());
+    return !lines.empty() && lines.back().find("nothing is computed until") != std::string::npos;
+  };
+  EXPECT_TRUE(said("", ""));
+  EXPECT_TRUE(said("gravity: {acceleration: [0, 0, 0]}", ""));
+  EXPECT_FALSE(said("gravity: {acceleration: [0, 0, 1]}", ""));
+  EXPECT_FALSE(said("", ", linear_velocity: [0, 0, 1]"));
+  EXPECT_FALSE(said("", ", angular_velocity: [0, 0, 1]"));
+}
+
 TEST(Evaluations, AreTicksTimesBodiesTimesStages) {
   const std::map<std::string, int> kicks = {
       {"semi_implicit", 1}, {"exact", 2}, {"rk4", 4}, {"rk8", 12}};
@@ -141,6 +156,31 @@ TEST(SwitchEffect, RefusesWhatIsNotThereAndChangesNothing) {
   EXPECT_NE(why.find("'drag'; there are gyroscopic, gravity"), std::string::npos) << why;
   simulator.step();
   EXPECT_NEAR(simulator.state(0).P_WB.z(), -2 * 9.8 * 0.02, 1e-15);
+}
+
+TEST(SwitchEffect, OfTheSpringsIsOfTheirDashpotsToo) {
+  Simulator simulator(
+      sceneFrom("{effects: {spring: [{body: a, anchor: [0, 0, 0], stiffness: 1, damping: 1}]}, "
+                "bodies: {a: {point_mass: 1, position: [0, 0, 1], linear_velocity: [0, 0, 1]}}}"));
+  EXPECT_EQ(simulator.effectNames(), (std::vector<std::string>{"gyroscopic", "spring"}));
+  simulator.step();
+  EXPECT_TRUE(simulator.switchEffect("spring", false));
+  const Vector3d P = simulator.state(0).P_WB;
+  for (int i = 0; i < 10; ++i) simulator.step();
+  EXPECT_EQ(simulator.state(0).P_WB, P);
+  EXPECT_EQ(simulator.effectCounts().size(), 2u) << "what they did is still counted";
+  EXPECT_TRUE(simulator.switchEffect("spring", true));
+  EXPECT_EQ(simulator.scene().effects.size(), 2u);
+}
+
+TEST(SwitchEffect, SaysWhetherItChangedAnything) {
+  Simulator simulator(sceneFrom(scene("exact", "gravity: {acceleration: [0, 0, -9.8]}")));
+  for (const std::string name : {"gravity", "gyroscopic"}) {
+    EXPECT_FALSE(simulator.switchEffect(name, true)) << name;
+    EXPECT_TRUE(simulator.switchEffect(name, false)) << name;
+    EXPECT_FALSE(simulator.switchEffect(name, false)) << name;
+    EXPECT_TRUE(simulator.switchEffect(name, true)) << name;
+  }
 }
 
 TEST(SwitchEffect, MayAlwaysEndWhatActs) {

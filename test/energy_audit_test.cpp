@@ -2,7 +2,7 @@
 // conservative stays what it was at the start, to the order of the integrator.
 #include <cmath>
 
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 #include "effect_blocks.hpp"
 #include "generic.hpp"
 
@@ -20,10 +20,7 @@ Scene sceneOf(Sampler& sample, const std::vector<std::string>& allowed) {
     if (name == "rotating_frame" && has_added_mass) continue;  // they do not go together
     effects += "  " + name + ": " + blocks.at(name) + "\n";
   }
-  if (has_added_mass) {
-    const auto at = effects.find(", gravity_gradient: true");
-    if (at != std::string::npos) effects.erase(at, 24);
-  }
+  if (has_added_mass) eraseWhatAddedMassRefuses(effects);
   std::string bodies;
   for (const std::string name : {"a", "b"})
     bodies += "  " + name + ": {mass: " + std::to_string(sample.between(1, 3)) +

@@ -165,7 +165,7 @@ TEST(GravityGradient, FasterThanTheOrbitIsRefusedByTheSwingItMakes) {
       "{effects: {central_gravity: {mu: 1.0e+6, gravity_gradient: true}}, bodies: {rod: {mass: 1, "
       "inertia: [1.0e-9, 1, 1], position: [0, 0, 1]}}}");
   EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
-                       {"central_gravity", "1732.05 rad/s", "largest stable step is 0.0011547 s"}));
+                       {"central_gravity", "1732.05 rad/s", "largest stable step is 0.000288675 s"}));
 }
 
 TEST(GravityGradient, OfAPointMassIsNothingAndMayNotBeAskedFor) {

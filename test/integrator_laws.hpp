@@ -39,6 +39,7 @@ class Obeying : public Effect {
   explicit Obeying(reference::PushLaw law) : law_(std::move(law)) {}
   std::string name() const override { return "law"; }
   std::size_t bodyCount() const override { return 1; }
+  bool dependsOnVelocity() const override { return true; }  // or so it may be
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {
     const reference::Push push = law_(now.time_s(), reference::extended(now.bodies().state(0)));
     wrenches.f_W.row(0) += push.f_W.cast<double>();

@@ -95,6 +95,20 @@ TEST(Getters, WithoutDefaultRequireTheKey) {
                        {"list", "not a list of maps"}));
 }
 
+TEST(Getters, NameWhatIsThereInsteadOfAMissingKey) {
+  const auto mass = [](const Parameters& p) { p.number("mass", positive("kg")); };
+  const std::string missing = "mass: is missing; it must be a finite number > 0 [kg]; ";
+  EXPECT_EQ(said("{mas: 1, com: 2}", mass), missing + "there is 'mas' instead");
+  EXPECT_EQ(said("{weight: 1, g: 2}", mass), missing + "there are 'g', 'weight' instead");
+  EXPECT_EQ(said("{weight: 1, com: 2}",
+                 [&](const Parameters& p) {
+                   p.has("com");
+                   mass(p);
+                 }),
+            missing + "there is 'weight' instead");
+  EXPECT_EQ(said("{u: 1, v: 2, w: 3, x: 4, y: 5, z: 6}", mass) + "; ", missing);
+}
+
 TEST(Boolean, IsTrueOrFalseAndNothingElse) {
   EXPECT_TRUE(parametersOf("b: yes").boolean("b"));
   for (const char* value : {"1", "0.0", "'true'", "maybe", "[true]"})
@@ -163,6 +177,9 @@ TEST(Children, AreMaps) {
 
 TEST(Keys, AreThereOrNotAndSorted) {
   const Parameters parameters = parametersOf("{b: 1, a: {c: 2}}");
+  EXPECT_FALSE(parameters.isBoolean("b"));
+  EXPECT_FALSE(parameters.isBoolean("c"));
+  EXPECT_TRUE(parametersOf("b: no").isBoolean("b"));
   EXPECT_EQ(parameters.keys(), (std::vector<std::string>{"a", "b"}));
   EXPECT_TRUE(parameters.has("a"));
   EXPECT_FALSE(parameters.has("c"));

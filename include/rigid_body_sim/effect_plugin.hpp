@@ -16,7 +16,7 @@
 namespace rigid_body_sim {
 
 /// Changes whenever a plug-in has to be compiled anew.
-constexpr int kEffectPluginVersion = 2;
+constexpr int kEffectPluginVersion = 3;
 
 /// What a plug-in's library offers.
 struct EffectPlugin {

@@ -23,6 +23,7 @@ struct EffectBlock {
   std::vector<Member> members;      ///< all bodies but those that say `<name>: false`
   std::vector<SceneBody>& bodies;   ///< all of the scene; an effect may add mass to them
   std::string why_nothing = "all its parameters are zero";  ///< if it makes no effect
+  std::vector<std::string> idle = {};  ///< what of it does nothing if it makes one: `[1]: why`
 
   /// A number for one body: its own, or else the scene's, or else the fallback.
   double number(const Member& member, const std::string& key, const Allowed& allowed,

@@ -45,9 +45,12 @@ struct IntegratorRow {
   bool keeps_angular_momentum;  ///< L of a torque-free body stays the same to the bit
   bool bounded_energy;          ///< no trend of a torque-free body's energy, however long
   bool is_reversible;           ///< a step of -h undoes a step of h, to rounding
-  double max_turn;     ///< largest |w| h [rad] of a step; beyond, errors grow without bound
-  double max_swing;    ///< largest (angular frequency) h of an oscillation that stays stable; with
-                       ///< explicit Euler all grow: where they do by a thousandth a step
+  double max_turn;   ///< largest |w| h [rad] of a step; beyond, errors grow without bound, or a
+                     ///< method that adapts its steps takes larger ones than it wants
+  double max_swing;  ///< largest (angular frequency) h of an oscillation that stays stable; with
+                     ///< explicit Euler all grow: where they do by a thousandth a step
+  double max_large_swing;  ///< the same where a large swing is not like a small one, as that of a
+                           ///< pendulum; h times the frequency of the small one
   double max_decay;    ///< largest (rate) h of a decay by wrenches that stays stable; of effects
                        ///< with a flow only Runge-Kutta methods ask
   int evaluations;     ///< of the effects, a step; 0: as many as it needs

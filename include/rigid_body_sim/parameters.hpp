@@ -51,6 +51,7 @@ class Parameters {
 
   bool has(const std::string& key) const;
   bool isMap(const std::string& key) const;
+  bool isBoolean(const std::string& key) const;
 
   double number(const std::string& key, const Allowed& allowed,
                 std::optional<double> fallback = std::nullopt) const;
@@ -83,6 +84,10 @@ class Parameters {
 
   /// @throws std::invalid_argument "<path of key>: <what>"
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
+
+  /// @throws std::invalid_argument "<path of key>: is missing; <what>", and which key is there that
+  /// nobody has asked for yet: the key may be misspelt.
+  [[noreturn]] void refuseMissing(const std::string& key, const std::string& what) const;
 
  private:
   const Value* find(const std::string& key) const;

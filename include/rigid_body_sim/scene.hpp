@@ -50,6 +50,8 @@ struct Scene {
   std::int64_t step_ns = 20'000'000;
   std::string integrator = "exact";
   int substeps = 1;          ///< steps of the integrator a tick
+  int threads = 0;           ///< that share a tick's work, to the same bits; 0: as many as the
+                             ///< processor has where bodies are many, else one
   double tolerance = 1e-12;  ///< see IntegratorOptions
   /// Bodies by the method that steps them, each body once; empty: all by `integrator`.
   std::vector<MethodOfBodies> methods;

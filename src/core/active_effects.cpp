@@ -12,6 +12,7 @@ void Wrenches::setZero(Eigen::Index count) {
 }
 
 void ActiveEffects::add(const Effect* effect) {
+  depend_on_velocity_ = depend_on_velocity_ || effect->dependsOnVelocity();
   if (effect->flowOrder() == 0) {
     kicks_.push_back({effect});
     return;
@@ -31,6 +32,9 @@ void ActiveEffects::remove(const Effect* effect) {
         rigid_body_sim::addUp({{effect->name(), entry.evaluations, entry.work_J}}, past_);
     entries->erase(std::remove_if(entries->begin(), entries->end(), is_it), entries->end());
   }
+  const auto depends = [](const Entry& entry) { return entry.effect->dependsOnVelocity(); };
+  depend_on_velocity_ = std::any_of(kicks_.begin(), kicks_.end(), depends) ||
+                        std::any_of(flows_.begin(), flows_.end(), depends);
 }
 
 void addUp(const std::vector<EffectCount>& more, std::vector<EffectCount>& counts) {

@@ -27,8 +27,12 @@ Eigen::Index EffectBlock::bodyNamed(const Parameters& block, const std::string& 
     if (bodies[i].name == name) return static_cast<Eigen::Index>(i);
     names.insert(bodies[i].name);
   }
+  std::string known;
+  constexpr std::size_t kMostNamed = 10;
+  for (const std::string& one : names)
+    if (names.size() <= kMostNamed) known += (known.empty() ? "; there are " : ", ") + one;
   const std::string nearest = nearestWord(name, names);
-  block.refuse(key, "there is no body '" + name + "'" +
+  block.refuse(key, "there is no body '" + name + "'" + known +
                         (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 

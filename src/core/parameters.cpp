@@ -144,6 +144,21 @@ void Parameters::refuse(const std::string& key, const std::string& what) const {
   throw std::invalid_argument(printable(pathOf(key)) + ": " + what);
 }
 
+void Parameters::refuseMissing(const std::string& key, const std::string& what) const {
+  std::set<std::string> others;
+  for (const auto& entry : map_)
+    if (asked_.count(entry.first) == 0) others.insert(entry.first);
+  const std::string nearest = nearestWord(key, others);
+  if (!nearest.empty()) others = {nearest};
+  std::string instead;
+  constexpr std::size_t kMostNamed = 5;
+  for (const std::string& other : others)
+    if (others.size() <= kMostNamed) instead += (instead.empty() ? "" : ", ") + ("'" + other + "'");
+  if (!instead.empty())
+    instead = (others.size() == 1 ? "; there is " : "; there are ") + instead + " instead";
+  refuse(key, "is missing; " + what + printable(instead));
+}
+
 const Value* Parameters::find(const std::string& key) const {
   asked_.insert(key);
   const auto found = map_.find(key);
@@ -155,6 +170,11 @@ bool Parameters::has(const std::string& key) const { return find(key) != nullptr
 bool Parameters::isMap(const std::string& key) const {
   const Value* value = find(key);
   return value && std::holds_alternative<Value::Map>(value->data);
+}
+
+bool Parameters::isBoolean(const std::string& key) const {
+  const Value* value = find(key);
+  return value && std::holds_alternative<bool>(value->data);
 }
 
 double Parameters::toNumber(const Value& value, const std::string& key,
@@ -174,7 +194,7 @@ double Parameters::toNumber(const Value& value, const std::string& key,
 double Parameters::number(const std::string& key, const Allowed& allowed,
                           std::optional<double> fallback) const {
   if (const Value* value = find(key)) return toNumber(*value, key, allowed);
-  if (!fallback) refuse(key, "is missing; it must be " + rangeText(allowed));
+  if (!fallback) refuseMissing(key, "it must be " + rangeText(allowed));
   return *fallback;
 }
 
@@ -184,7 +204,7 @@ int Parameters::integer(const std::string& key, int min, int max, std::optional<
   const std::string expected = "a whole number from " + std::to_string(min) + " to " +
                                std::to_string(max) + (unit.empty() ? "" : " [" + unit + "]");
   if (!value) {
-    if (!fallback) refuse(key, "is missing; it must be " + expected);
+    if (!fallback) refuseMissing(key, "it must be " + expected);
     return *fallback;
   }
   const auto* integer = std::get_if<std::int64_t>(&value->data);
@@ -196,7 +216,7 @@ int Parameters::integer(const std::string& key, int min, int max, std::optional<
 bool Parameters::boolean(const std::string& key, std::optional<bool> fallback) const {
   const Value* value = find(key);
   if (!value) {
-    if (!fallback) refuse(key, "is missing; it must be true or false");
+    if (!fallback) refuseMissing(key, "it must be true or false");
     return *fallback;
   }
   const auto* boolean = std::get_if<bool>(&value->data);
@@ -207,7 +227,7 @@ bool Parameters::boolean(const std::string& key, std::optional<bool> fallback) c
 std::string Parameters::text(const std::string& key, std::optional<std::string> fallback) const {
   const Value* value = find(key);
   if (!value) {
-    if (!fallback) refuse(key, "is missing; it must be a string");
+    if (!fallback) refuseMissing(key, "it must be a string");
     return *fallback;
   }
   const auto* text = std::get_if<std::string>(&value->data);
@@ -238,7 +258,7 @@ std::vector<double> Parameters::numbers(const std::string& key,
   expected = "a list of " + expected + " numbers" +
              (allowed.unit.empty() ? "" : " [" + allowed.unit + "]");
   const Value* value = find(key);
-  if (!value) refuse(key, "is missing; it must be " + expected);
+  if (!value) refuseMissing(key, "it must be " + expected);
   const auto* list = std::get_if<Value::List>(&value->data);
   if (!list || std::find(counts.begin(), counts.end(), list->size()) == counts.end())
     refuse(key, toText(*value) + " is not " + expected);

@@ -32,21 +32,20 @@ Part wholeOf(const Situation& now) {
 }
 
 Flight::Flight(const Part& part, const Method& method)
-    : group_(method, part.ungyroscopic, part.effects),
-      bodies_(part.bodies),
+    : block_(method, part.ungyroscopic, part.effects, part.bodies),
       tick_(part.tick),
       tick_s_(part.tick_s),
       shall_end_(part.shall_end) {}
 
 void Flight::step() {
   constexpr double kOften = 1000;  // steps of a body: a hundredth of a second, more or less
-  unasked_ += static_cast<double>(group_.method().substeps * bodies_.count());
+  unasked_ += static_cast<double>(block_.method().substeps * bodies().count());
   if (unasked_ > kOften && shall_end_) {
     unasked_ = 0;
     if (shall_end_())
       throw std::invalid_argument("ended while methods were chosen for the accuracy");
   }
-  group_.step(bodies_, static_cast<double>(tick_) * tick_s_, tick_s_);
+  block_.step(static_cast<double>(tick_) * tick_s_, tick_s_);
   ++tick_;
 }
 

@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/group.hpp"
+#include "core/block.hpp"
+#include "core/suitability.hpp"
 #include "rigid_body_sim/trajectory.hpp"
 
 namespace rigid_body_sim {
@@ -46,12 +47,11 @@ class Flight {
 
   /// @throws std::invalid_argument if it shall end, which is asked now and then
   void step();
-  const Bodies& bodies() const { return bodies_; }
+  const Bodies& bodies() const { return block_.bodies(); }
   Tick tick() const { return tick_; }
 
  private:
-  Group group_;
-  Bodies bodies_;
+  Block block_;
   Tick tick_;
   double tick_s_;
   ShallEnd shall_end_;

@@ -34,6 +34,7 @@ void readMethod(const Parameters& parameters, Scene& scene) {
   if (parameters.has("tolerance") && !adapts)
     parameters.refuse("tolerance", "the integrator '" + scene.integrator +
                                        "' does not adapt its steps; `adaptive` takes it");
+  scene.threads = parameters.integer("threads", 0, 256, scene.threads);
   scene.tolerance = parameters.number("tolerance", {1e-15, 1e-2, "rad in 1 s"}, scene.tolerance);
 }
 

@@ -91,7 +91,7 @@ SceneBody bodyFromNumbers(const Parameters& block, const std::string& name) {
     body.mass_properties = readShape(block, found);
   }
   const std::string why = invalidity(body.mass_properties);
-  if (!why.empty()) block.refuse(found, why);
+  if (!why.empty()) block.refuse(found == "mass" ? "inertia" : found, why);
   return body;
 }
 

@@ -31,6 +31,11 @@ std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene
 
 EffectBlock blockOf(const EffectRow& row, const Parameters& effects,
                     const std::vector<Parameters>& bodies, Scene& scene) {
+  if (effects.isBoolean(row.name))
+    effects.refuse(row.name,
+                   "true and false are for a body's own block and for `gyroscopic`; here an "
+                   "effect has its parameters, or is left out, or ended by "
+                   "~switch_effect while the node runs");
   EffectBlock block{row.name, Parameters({}, ""), {}, {}, scene.bodies};
   if (row.layout == BlockLayout::kList) {
     if (effects.has(row.name)) block.entries = effects.children(row.name);
@@ -65,6 +70,7 @@ void readInVain(const EffectRow& row, const EffectBlock& block, std::vector<Scen
   for (SceneBody& body : bodies) {
     body.is_point_mass = false;
     body.mass_properties = solidSphere(1, 1);
+    body.X_WL.translation().setConstant(1e30);  // where it is in nothing's way
     body.added_mass_L = {};
   }
   EffectBlock vain{block.name, block.scene, {}, {}, bodies};
@@ -134,6 +140,8 @@ void readEffects(const Parameters& parameters, const std::vector<Parameters>& bo
     const EffectList made = row.make(block);
     if (!is_in_vain) refuseUnknown(block);
     if (made.empty()) scene.elided.push_back(row.name + ": " + block.why_nothing);
+    if (!made.empty())
+      for (const std::string& one : block.idle) scene.elided.push_back(row.name + one);
     scene.effects.insert(scene.effects.end(), made.begin(), made.end());
   }
   effects.refuseUnknown();

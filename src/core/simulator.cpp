@@ -1,70 +1,29 @@
 #include "rigid_body_sim/simulator.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "core/accuracy_plan.hpp"
 #include "core/accuracy_watch.hpp"
-#include "core/group.hpp"
+#include "core/block.hpp"
+#include "core/crew.hpp"
+#include "core/suitability.hpp"
 #include "rigid_body_sim/conserved.hpp"
 
 namespace rigid_body_sim {
 namespace {
 
-bool isFinite(const AppliedWrench& applied) {
-  return applied.wrench.f_F.allFinite() && applied.wrench.t_Q_F.allFinite() &&
-         applied.p_BcmQ_B.allFinite();
-}
-
-template <class Input>
-void check(const Input& input, const Scene& scene) {
-  if (input.body < 0 || input.body >= static_cast<Eigen::Index>(scene.bodies.size()))
-    throw std::invalid_argument("there is no body " + std::to_string(input.body));
-  if (!isFinite(input.applied)) throw std::invalid_argument("input is not finite");
-  const SceneBody& body = scene.bodies[input.body];
-  const AppliedWrench& applied = input.applied;
-  if (body.is_point_mass && !(applied.wrench.t_Q_F.isZero(0) && applied.p_BcmQ_B.isZero(0)))
-    throw std::invalid_argument("a torque on the point mass '" + body.name + "'");
-}
-
-/// Moves the inputs that are due at `tick` out of `pending`.
-template <class Input>
-std::vector<Input> takeDue(std::vector<Input>& pending, Tick tick) {
-  const auto first_due = std::stable_partition(
-      pending.begin(), pending.end(), [tick](const Input& input) { return input.start > tick; });
-  std::vector<Input> due(std::make_move_iterator(first_due),
-                         std::make_move_iterator(pending.end()));
-  pending.erase(first_due, pending.end());
-  return due;
-}
+/// From where on a second thread is worth waking.
+constexpr Eigen::Index kManyBodies = 2000;
 
 void copyState(const Bodies& from, Bodies& to) {
   to.p_WBcm = from.p_WBcm;
   to.q_WB = from.q_WB;
   to.P_WB = from.P_WB;
   to.L_WBcm_W = from.L_WBcm_W;
-}
-
-/// A number times zero is zero, but for what is not finite. Four sums, as one would wait for
-/// itself.
-template <class Columns>
-bool allFinite(const Columns& columns) {
-  const double* x = columns.data();
-  const Eigen::Index count = columns.size();
-  double sums[4] = {0, 0, 0, 0};
-  Eigen::Index i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (int k = 0; k < 4; ++k) sums[k] += 0.0 * x[i + k];
-  for (; i < count; ++i) sums[0] += 0.0 * x[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]) == 0;
-}
-
-bool allFinite(const Bodies& bodies) {
-  return allFinite(bodies.p_WBcm) && allFinite(bodies.q_WB) && allFinite(bodies.P_WB) &&
-         allFinite(bodies.L_WBcm_W);
 }
 
 /// Every frame of every body becomes a frame of one tree.
@@ -104,7 +63,10 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   initial_ = Bodies(static_cast<Eigen::Index>(scene_.bodies.size()));
   initial_.mass.setOnes();
   for (const SceneBody& body : scene_.bodies) addBody(body);
-  bodies_ = before_ = initial_;
+  bodies_ = initial_;
+  const bool are_many = initial_.count() >= kManyBodies;
+  if (scene_.threads > 1 || (scene_.threads == 0 && are_many))
+    crew_ = std::make_unique<Crew>(scene_.threads);
   if (scene_.accuracy) {
     Bill bill = planFrom({scene_, bodies_, *applied_, tick_, shall_end_}, *scene_.accuracy,
                          WithoutAMethod::kRefuse);
@@ -114,7 +76,11 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
   at_start_ = {scene_.effects, scene_.gyroscopic};
-  makeGroups();
+  if (scene_.effects.empty() && initial_.P_WB.isZero(0) && initial_.L_WBcm_W.isZero(0))
+    scene_.elided.push_back(
+        "motion: all bodies start at rest and nothing acts on them; nothing is computed until "
+        "something does");
+  makeBlocks();
   start_energy_J_ = initial_energy_J_ = energy().kinetic_J + energy().potential_J;
 }
 
@@ -139,119 +105,118 @@ void Simulator::addBody(const SceneBody& body) {
   initial_.setState(i, state);
 }
 
-void Simulator::makeGroups() {
-  for (const auto& group : groups_) addUp(group->counts(), counts_);
-  groups_.clear();
-  for (Group& group : groupsOf(scene_))
-    groups_.push_back(std::make_unique<Group>(std::move(group)));
-  for (const auto& group : groups_) {
-    if (scene_.energy_audit) group->beginAudit();
-    group->hold(*applied_);
+/// From the state in bodies_.
+void Simulator::makeBlocks() {
+  for (const Placed& one : blocks_) addUp(one.block.counts(), counts_);
+  blocks_ = blocksOf(scene_, bodies());
+  places_.resize(scene_.bodies.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::vector<Eigen::Index>& indices = blocks_[b].indices;
+    for (std::size_t k = 0; k < indices.size(); ++k)
+      places_[indices[k]] = {b, static_cast<Eigen::Index>(k)};
+    if (scene_.energy_audit) blocks_[b].block.beginAudit();
+  }
+  for (const FrozenBody& frozen : frozen_) {
+    const Place place = places_[frozen.body];
+    blocks_[place.block].block.freeze({place.row, frozen.tick});
+  }
+  holdWrenches();
+}
+
+const Bodies& Simulator::bodies() const {
+  if (is_up_to_date_) return bodies_;
+  for (const Placed& one : blocks_) {
+    const Bodies& from = one.block.bodies();
+    if (blocks_.size() == 1 && one.indices.front() == 0) {  // of all, in their order
+      copyState(from, bodies_);
+      break;
+    }
+    for (std::size_t k = 0; k < one.indices.size(); ++k)
+      bodies_.setState(one.indices[k], from.state(static_cast<Eigen::Index>(k)));
+  }
+  is_up_to_date_ = true;
+  return bodies_;
+}
+
+BodyState Simulator::state(Eigen::Index body) const {
+  const Place place = places_[body];
+  return blocks_[place.block].block.bodies().state(place.row);
+}
+
+void Simulator::setState(Eigen::Index body, const BodyState& state) {
+  const Place place = places_[body];
+  blocks_[place.block].block.setState(place.row, state);
+  is_up_to_date_ = false;
+}
+
+void Simulator::advance(Tick ticks) {
+  ended_.clear();
+  for (Tick done = 0, some; done < ticks; done += some) {
+    latchInputs();
+    some = ticks - done == 1 ? 1 : ticksWithoutInput(ticks - done);
+    if (watch_) {
+      watch_->beginTick({scene_, bodies(), *applied_, tick_});
+      replanIfDue();
+    }
+    advanceBlocks(some);
+    noteFrozenBodies();
+    if (watch_) watch_->endTick(bodies(), frozen_, tick_);
+    tick_ += some;
   }
 }
 
-void Simulator::apply(WrenchInput input) {
-  check(input, scene_);
-  if (input.ticks < 0) throw std::invalid_argument("a negative number of ticks");
-  input.start = std::max(input.start, tick_);
-  if (input.replaces && input.start == tick_) {
-    // What it will replace at once need not wait: a sender that goes on while the simulation is
-    // paused keeps one input, not all.
-    const auto is_replaced = [&](const WrenchInput& old) {
-      return old.start <= tick_ && old.origin.sequence < input.origin.sequence &&
-             isReplacedBy(old, input);
-    };
-    pending_wrenches_.erase(
-        std::remove_if(pending_wrenches_.begin(), pending_wrenches_.end(), is_replaced),
-        pending_wrenches_.end());
-  }
-  pending_wrenches_.push_back(std::move(input));
-}
-
-void Simulator::apply(ImpulseInput input) {
-  check(input, scene_);
-  input.start = std::max(input.start, tick_);
-  pending_impulses_.push_back(std::move(input));
-}
-
-void Simulator::latchInputs() {
-  if (!pending_wrenches_.empty() || applied_->bodyCount() > 0)
-    latchWrenches();
+void Simulator::advanceBlocks(Tick ticks) {
+  const auto advance = [&](std::size_t first, std::size_t last) {
+    thread_local Snapshot before;
+    for (std::size_t b = first; b < last; ++b)
+      blocks_[b].block.advance(tick_, ticks, scene_.step_s(), before);
+  };
+  constexpr std::size_t kLeast = 4;  // blocks: some 5 us of work
+  if (crew_ && blocks_.size() > kLeast)
+    crew_->share(blocks_.size(), kLeast, advance);
   else
-    ended_.clear();
-  if (!pending_impulses_.empty()) giveImpulses(takeDue(pending_impulses_, tick_));
+    advance(0, blocks_.size());
+  is_up_to_date_ = false;
 }
 
-void Simulator::latchWrenches() {
-  std::vector<WrenchInput> begun = takeDue(pending_wrenches_, tick_);
-  const bool may_change = !begun.empty();
-  if (watch_)
-    for (const WrenchInput& input : begun) watch_->wrench(input.body, bodies_, tick_);
-  ended_ = applied_->update(std::move(begun), tick_);
-  if (may_change || !ended_.empty()) {
-    for (const auto& group : groups_) group->hold(*applied_);
-  }
-}
-
-void Simulator::giveImpulses(std::vector<ImpulseInput> impulses) {
-  std::sort(impulses.begin(), impulses.end(), isBefore<ImpulseInput>);
-  for (const ImpulseInput& input : impulses) {
-    if (isZero(input.applied.wrench)) continue;  // -0 + 0 would change a bit
-    if (watch_) watch_->impulse(input, bodies_, tick_);
-    BodyState body = bodies_.state(input.body);
-    const Wrench impulse = inWorldAboutCom(input.applied, body.q_WB);
-    body.P_WB += impulse.f_F;
-    body.L_WBcm_W += impulse.t_Q_F;
-    const double before = scene_.energy_audit ? kineticEnergy(bodies_, input.body) : 0;
-    bodies_.setState(input.body, body);
-    if (scene_.energy_audit) impulse_work_J_ += kineticEnergy(bodies_, input.body) - before;
-  }
-  for (const auto& group : groups_) group->disturb();
-}
-
-void Simulator::freezeNonFinite(const Bodies& before) {
-  for (const FrozenBody& frozen : frozen_) bodies_.setState(frozen.body, before.state(frozen.body));
-  if (allFinite(bodies_)) return;
-  for (Eigen::Index i = 0; i < bodies_.count(); ++i) {
-    if (isFinite(bodies_.state(i))) continue;
-    bodies_.setState(i, before.state(i));
-    frozen_.push_back({i, tick_});
-  }
-}
-
-void Simulator::step() {
-  copyState(bodies_, before_);
-  latchInputs();
-  if (watch_) {
-    watch_->beginTick({scene_, bodies_, *applied_, tick_});
-    replanIfDue();
-  }
-  for (const auto& group : groups_) group->step(bodies_, time_s(), scene_.step_s());
-  freezeNonFinite(before_);
-  if (watch_) watch_->endTick(bodies_, frozen_, tick_);
-  ++tick_;
-  assert(allFinite(bodies_));
+/// Those that the latest ticks froze. A body that an impulse made infinite goes back to before it.
+void Simulator::noteFrozenBodies() {
+  const std::size_t known = frozen_.size();
+  std::size_t count = 0;
+  for (const Placed& one : blocks_) count += one.block.frozen().size();
+  if (count == known) return;
+  frozen_.clear();
+  for (const Placed& one : blocks_)
+    for (const FrozenBody& frozen : one.block.frozen())
+      frozen_.push_back({one.indices[frozen.body], frozen.tick});
+  std::sort(frozen_.begin(), frozen_.end(), [](const FrozenBody& a, const FrozenBody& b) {
+    return std::tie(a.tick, a.body) < std::tie(b.tick, b.body);
+  });
+  for (auto frozen = frozen_.begin() + static_cast<std::ptrdiff_t>(known); frozen != frozen_.end();
+       ++frozen)
+    for (const auto& [body, state] : before_impulses_)
+      if (body == frozen->body && frozen->tick == tick_) setState(body, state);
 }
 
 void Simulator::replanIfDue() {
   const std::optional<Eigen::Index> body = watch_->bodyToReplan();
   if (!body) return;
-  const Situation now = {scene_, bodies_, *applied_, tick_, shall_end_};
+  const Situation now = {scene_, bodies(), *applied_, tick_, shall_end_};
   watch_->replan(planAgain(watch_->state().bill, now, *body), *body);
   scene_.methods = methodsOf(watch_->state().bill);
-  makeGroups();
+  makeBlocks();
 }
 
 std::vector<EffectCount> Simulator::effectCounts() const {
   std::vector<EffectCount> counts = counts_;
-  for (const auto& group : groups_) addUp(group->counts(), counts);
+  for (const Placed& one : blocks_) addUp(one.block.counts(), counts);
   return counts;
 }
 
 EnergyBalance Simulator::energy() const {
   EnergyBalance energy;
-  energy.kinetic_J = kineticEnergy(bodies_);
-  const Instant now(bodies_, time_s());
+  energy.kinetic_J = kineticEnergy(bodies());
+  const Instant now(bodies(), time_s());
   for (const auto& effect : scene_.effects) energy.potential_J += effect->potentialEnergy(now);
   energy.start_J = start_energy_J_;
   energy.inputs_J = impulse_work_J_;
@@ -262,10 +227,10 @@ EnergyBalance Simulator::energy() const {
 
 std::vector<WrenchesOfEffect> Simulator::effectWrenches() const {
   std::vector<WrenchesOfEffect> all;
-  const Instant now(bodies_, time_s());
+  const Instant now(bodies(), time_s());
   const auto add = [&](const Effect& effect) {
     all.push_back({effect.name(), {}});
-    all.back().wrenches.setZero(bodies_.count());
+    all.back().wrenches.setZero(now.bodies().count());
     effect.addWrenches(now, all.back().wrenches);
   };
   for (const auto& effect : scene_.effects) add(*effect);
@@ -286,75 +251,44 @@ const AccuracyState* Simulator::accuracy() const { return watch_ ? &watch_->stat
 
 void Simulator::reset() {
   copyState(initial_, bodies_);
+  is_up_to_date_ = true;
+  frozen_.clear();
   applied_->clear();
   if (watch_ && watch_->reset(tick_ + 1)) scene_.methods = methodsOf(watch_->state().bill);
   scene_.effects = at_start_.effects;
   scene_.gyroscopic = at_start_.gyroscopic;
-  makeGroups();
+  makeBlocks();
   start_energy_J_ = initial_energy_J_;
   counts_.clear();
   impulse_work_J_ = 0;
   pending_wrenches_.clear();
   pending_impulses_.clear();
   ended_.clear();
-  frozen_.clear();
   ++tick_;
-}
-
-std::vector<std::string> Simulator::effectNames() const {
-  std::vector<std::string> names = {"gyroscopic"};
-  for (const auto& effect : at_start_.effects)
-    if (std::find(names.begin(), names.end(), effect->name()) == names.end())
-      names.push_back(effect->name());
-  return names;
-}
-
-void Simulator::switchEffect(const std::string& name, bool is_on) {
-  if (watch_)
-    throw std::invalid_argument(
-        "the methods were chosen for these effects, to keep the accuracy; a scene with a budget "
-        "keeps its effects");
-  const std::vector<std::string> names = effectNames();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
-    throw std::invalid_argument("the scene has no effect '" + name + "'; there are " + known);
-  }
-  Scene changed = scene_;
-  if (name == "gyroscopic") changed.gyroscopic = is_on ? Gyroscopic::kOn : Gyroscopic::kOff;
-  changed.effects.clear();
-  for (const auto& effect : at_start_.effects) {
-    const auto& now = scene_.effects;
-    const bool was_on = std::find(now.begin(), now.end(), effect) != now.end();
-    if (effect->name() == name && !is_on && !effect->isSwitchable())
-      throw std::invalid_argument("'" + name +
-                                  "' cannot end: the momenta of the bodies contain it");
-    if (effect->name() == name ? is_on : was_on) changed.effects.push_back(effect);
-  }
-  // What ends makes nothing harder, but that some effects need the gyroscopic term.
-  if (is_on || name == "gyroscopic") requireSuitableMethods(changed, bodies_, time_s());
-  const double before = energy().potential_J;
-  scene_ = std::move(changed);
-  start_energy_J_ += energy().potential_J - before;  // it comes and goes with the effect
-  makeGroups();
 }
 
 std::optional<OverTurnedBody> Simulator::overTurnedBody() const {
   std::optional<OverTurnedBody> worst;
-  for (const auto& group : groups_) {
-    const Method& method = group->method();
+  for (const Placed& one : blocks_) {
+    const Method& method = one.block.method();
     const double max_turn = integratorNamed(method.integrator).max_turn;
-    const std::vector<Eigen::Index>& some = group->bodies();
-    const FastestBody fastest = fastestOf(some.empty() ? bodies_ : rowsOf(bodies_, some));
+    const FastestBody fastest = fastestOf(one.block.bodies());
     const double turn = fastest.rate * scene_.step_s() / method.substeps;
     if (turn > max_turn && (!worst || turn / max_turn > worst->turn / worst->max_turn))
-      worst = {some.empty() ? fastest.body : some[fastest.body], method, turn, max_turn};
+      worst = {one.indices[fastest.body], method, turn, max_turn};
   }
   return worst;
 }
 
+std::optional<StiffBody> Simulator::stiffBody() const {
+  for (const Placed& one : blocks_)
+    if (const auto fault = one.block.tooStiff(time_s(), scene_.step_s()))
+      return StiffBody{one.indices[fault->body], fault->why};
+  return std::nullopt;
+}
+
 LinkMotion Simulator::linkMotion(Eigen::Index body) const {
-  return rigid_body_sim::linkMotion(frames_[body], bodies_.state(body));
+  return rigid_body_sim::linkMotion(frames_[body], state(body));
 }
 
 }  // namespace rigid_body_sim

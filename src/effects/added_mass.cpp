@@ -38,6 +38,7 @@ class AddedMassEffect : public Effect {
   bool isSwitchable() const override { return false; }
   bool hasReversibleFlow() const override { return true; }
   bool hasInnermostFlow() const override { return true; }
+  bool hasStableFlow() const override { return false; }  // Munk's moment turns nothing: it kicks
 
   /// Without a moment it commutes with the drift: nothing is split.
   int flowOrder() const override {
@@ -126,6 +127,7 @@ AddedMass addedMassOf(const EffectBlock& block, const EffectBlock::Member& membe
 
 EffectList makeAddedMass(EffectBlock& block) {
   Members<Carried> members;
+  if (!block.members.empty()) block.why_nothing = "no body has a linear or an angular one";
   for (const auto& member : block.members) {
     const AddedMass added = addedMassOf(block, member);
     if (added.isZero()) continue;

@@ -96,6 +96,9 @@ EffectList makeBuoyancy(EffectBlock& block) {
     all.add(member.body, fluid);
     if (!fluid.p_BcmQ_B.isZero(0)) tilted.add(member.body, fluid);
   }
+  if (all.empty() && !block.members.empty()) block.why_nothing = "no body has a volume";
+  if (density == 0) block.why_nothing = "the fluid_density is zero";
+  if (g_W.isZero(0)) block.why_nothing = "the acceleration is zero";
   if (all.empty() || g_W.isZero(0)) return {};
   return {std::make_shared<Buoyancy>(g_W, std::move(all), std::move(tilted))};
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "effects/makers.hpp"
 #include "rigid_body_sim/column_pointers.hpp"
@@ -135,6 +136,12 @@ class CentralGravity : public Effect {
 
 /// An orbit goes round at sqrt(mu/r^3), and a body swings about the local vertical at up to the
 /// root of 3 (I_j - I_k)/I_i times that (Hughes 1986, chapter 9). Judged where the body is now.
+///
+/// No eigenvalue of the oblateness' own gradient is above 12 mu |J2| Re^2/r^5, which it has at the
+/// poles: the potential is mu J2 Re^2/2 (pole.grad)^2 1/r, so that along a unit vector u the
+/// gradient is the symmetric form T(pole, pole, u, u), T = mu J2 Re^2/2 grad^4 1/r; such a form is
+/// largest with four equal vectors (Banach, Studia Math. 7 (1938) 36), and
+/// (u.grad)^4 1/r = 24 P_4(u.n)/r^5, |P_4| <= 1.
 Stiffness CentralGravity::stiffness(const Instant& now) const {
   Stiffness stiffest;
   const auto consider = [&](Eigen::Index i, double factor) {
@@ -142,7 +149,10 @@ Stiffness CentralGravity::stiffness(const Instant& now) const {
         std::sqrt(factor * field_.mu * cube(Ray(field_, now.bodies(), i).inverse_r));
     if (std::isfinite(rate) && rate > stiffest.oscillation) stiffest = {rate, 0, i};
   };
-  for (const auto& [i, none] : all_) consider(i, 1);
+  for (const auto& [i, none] : all_) {
+    const double inverse_r = Ray(field_, now.bodies(), i).inverse_r;
+    consider(i, 1 + 12 * std::abs(field_.j2_R2) * inverse_r * inverse_r);
+  }
   for (const auto& [i, none] : extended_) {
     const Vector3d I = now.bodies().moments(i);
     consider(i, 3 * std::max({(I(2) - I(1)) / I(0), (I(2) - I(0)) / I(1), (I(1) - I(0)) / I(2)}));
@@ -186,6 +196,25 @@ CentralField readField(const Parameters& scene) {
   return field;
 }
 
+/// A body that starts at the centre, or so deep in the planet that the series in Re/r means
+/// nothing: where the oblateness, at most 3 |J2| (Re/r)^2 of it, may outweigh the pull itself. Of a
+/// real planet's J2 that is nowhere outside; a radius in the wrong unit gets there.
+void requireOutside(const CentralField& field, const EffectBlock& block,
+                    const EffectBlock::Member& member) {
+  const SceneBody& body = block.bodies[member.body];
+  const double r = (body.X_WL * body.mass_properties.p_FBcm - field.center_W).norm();
+  std::ostringstream where;
+  where << "body '" << body.name << "' starts " << r << " m from there";
+  if (!std::isfinite(field.mu / (r * r * r)))
+    block.scene.refuse("center", where.str() + ", where the pull is not finite");
+  const double part = 3 * std::abs(field.j2_R2) / (r * r);
+  if (part > 1) {
+    where << ", so far inside of equatorial_radius that j2's part is up to " << part
+          << " times the pull itself; wrong units?";
+    block.scene.refuse("center", where.str());
+  }
+}
+
 }  // namespace
 
 EffectList makeCentralGravity(EffectBlock& block) {
@@ -195,6 +224,7 @@ EffectList makeCentralGravity(EffectBlock& block) {
   for (const auto& member : block.members) {
     all.add(member.body, {});
     if (hasGradient(block, member)) extended.add(member.body, {});
+    if (field.mu > 0) requireOutside(field, block, member);
   }
   if (field.mu == 0 || all.empty()) return {};
   return {std::make_shared<CentralGravity>(field, std::move(all), std::move(extended))};

@@ -145,7 +145,8 @@ class Drag : public Effect {
 std::optional<double> readDensity(const Parameters& scene) {
   if (!scene.has("atmosphere")) {
     if (!scene.has("air_density"))
-      scene.refuse("air_density", "is missing [kg/m^3]; or give `atmosphere: us_standard_1976`");
+      scene.refuseMissing("air_density",
+                          "it must be a density [kg/m^3]; or give `atmosphere: us_standard_1976`");
     return scene.number("air_density", notNegative("kg/m^3"));
   }
   if (scene.has("air_density"))
@@ -191,6 +192,25 @@ Members<Shape> readShapes(const EffectBlock& block) {
   return members;
 }
 
+/// The fluid that bodies carry is at rest in W (Kirchhoff's equations). In a steady uniform stream
+/// that is the same where the added mass has no direction, by Galileo; else Munk's moment would
+/// turn a body that drifts with the stream, and a stream that changes would have to pull at what
+/// the body displaces.
+void refuseWindOnAddedMass(const EffectBlock& block, const Wind& wind,
+                           const Members<Shape>& members) {
+  if (wind.velocity_W.isZero(0) && wind.gusts.areNone()) return;
+  const bool changes = wind.shear || !wind.gusts.areNone();
+  for (const auto& [i, shape] : members) {
+    const Vector3d& carried = block.bodies[i].added_mass_L.linear_F;
+    if (shape.drag_area == 0 || carried.isZero(0)) continue;
+    if (!changes && carried == Vector3d::Constant(carried(0))) continue;
+    block.scene.refuse(
+        "wind", "with `added_mass` on body '" + block.bodies[i].name + "', whose fluid is at rest" +
+                    (changes ? ": it bears no shear and no gusts"
+                             : ": it bears wind only if the three of its `linear` are equal"));
+  }
+}
+
 }  // namespace
 
 EffectList makeDrag(EffectBlock& block) {
@@ -202,6 +222,7 @@ EffectList makeDrag(EffectBlock& block) {
     block.why_nothing = "no body has a drag_area or a rotational_drag";
   if (density == 0.0) block.why_nothing = "the air_density is zero";
   if (members.empty() || density == 0.0) return {};
+  refuseWindOnAddedMass(block, wind, members);
   if (density && !wind.shear) {
     auto air = std::make_shared<UniformAir>(UniformAir{*density, wind.velocity_W, wind.gusts});
     return {std::make_shared<Drag<UniformAir>>(std::move(air), std::move(members))};

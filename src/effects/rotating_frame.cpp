@@ -97,7 +97,7 @@ class RotatingFrame : public Effect {
     turnAttitudes(bodies, back);
   }
 
-  Stiffness stiffness(const Instant&) const override { return {2 * w_W_.norm(), 0, 0}; }
+  Stiffness stiffness(const Instant&) const override { return {2 * w_W_.norm(), 0, 0, true}; }
 
   std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {
     return std::make_shared<RotatingFrame>(w_W_, members_.restrictedTo(some));

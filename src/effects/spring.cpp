@@ -164,7 +164,9 @@ class ElasticSprings : public SpringEffect {
   Stiffness stiffness(const Instant& now) const override {
     const Bodies& bodies = now.bodies();
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(bodies.count());
+    bool is_linear = true;
     for (const Spring& spring : springs()) {
+      is_linear = is_linear && isLinear(spring);
       const Line line = lineOf(spring, now);
       const double own =
           spring.stiffness * (lightest(spring.ends[0], bodies) + lightest(spring.ends[1], bodies));
@@ -178,7 +180,7 @@ class ElasticSprings : public SpringEffect {
     }
     Eigen::Index stiffest = 0;
     const double square = squares.maxCoeff(&stiffest);
-    return {std::sqrt(square), 0, stiffest};
+    return {std::sqrt(square), 0, stiffest, is_linear};
   }
 
   std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {
@@ -187,6 +189,12 @@ class ElasticSprings : public SpringEffect {
   }
 
  private:
+  /// Pulls with the distance alone, and turns nothing.
+  static bool isLinear(const Spring& spring) {
+    return spring.rest_length == 0 && !spring.tension_only && !spring.ends[0].turns &&
+           !spring.ends[1].turns;
+  }
+
   /// On the first end; smooth at l = 0 if l0 = 0.
   static Triple pull(const Spring& spring, const Line& line) {
     return (spring.stiffness * (1 - spring.rest_length / line.length)) * line.d_W;
@@ -204,6 +212,7 @@ class SpringDamping : public SpringEffect {
   using SpringEffect::SpringEffect;
 
   std::string name() const override { return "spring_damping"; }
+  std::string blockName() const override { return "spring"; }
   bool dependsOnVelocity() const override { return true; }
   int flowOrder() const override { return 2; }
 
@@ -343,11 +352,15 @@ Spring springOf(const EffectBlock& block, const Parameters& entry) {
 
 EffectList makeSpring(EffectBlock& block) {
   Springs elastic, damped;
-  for (const Parameters& entry : block.entries) {
-    const Spring spring = springOf(block, entry);
+  block.why_nothing = "the list is empty";
+  for (std::size_t k = 0; k < block.entries.size(); ++k) {
+    const Spring spring = springOf(block, block.entries[k]);
+    if (spring.stiffness == 0 && spring.damping == 0)
+      block.idle.push_back("[" + std::to_string(k) + "]: its stiffness and its damping are zero");
     if (spring.stiffness > 0) elastic.push_back(spring);
     if (spring.damping > 0) damped.push_back(spring);
   }
+  if (!block.entries.empty()) block.why_nothing = "of no spring is stiffness or damping above zero";
   EffectList effects;
   if (!elastic.empty()) effects.push_back(std::make_shared<ElasticSprings>(std::move(elastic)));
   if (!damped.empty()) effects.push_back(std::make_shared<SpringDamping>(std::move(damped)));

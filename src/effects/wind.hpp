@@ -30,6 +30,8 @@ class Gusts {
   /// of each axis is exactly deviation^2.
   Vector3d at(double time_s) const;
 
+  bool areNone() const { return waves_.empty(); }
+
  private:
   struct Wave {
     double frequency;  // [rad/s]

@@ -44,7 +44,7 @@ inline void setRotation(Gyroscopic gyroscopic, BodyState& body, const Quaternion
   if (!(L_W.lpNorm<Eigen::Infinity>() > 0.1 * start) || m_B.isZero(0)) return;
   Vector3d now = body.q_WB * m_B, wanted = L_W;
   double size = m_B.norm() * L_W.norm();
-  if (std::isnan(size)) return;  // the body will be frozen
+  if (std::isnan(size)) return;            // the body will be frozen
   if (!(size > 1e-140 && size < 1e140)) {  // products of two of these leave the range of numbers
     now = scaled(now);
     wanted = scaled(wanted);

@@ -7,49 +7,49 @@
 namespace rigid_body_sim {
 namespace {
 
-/// At the constant rate of the beginning, w = R I^-1 R^T L.
-struct ConstantRate {
-  Quaterniond operator()(const BodyState& body, const Vector3d& I, double h) const {
-    return renormalized(body.q_WB * rotationExp(h * angularVelocityInBody(body, I)));
+/// The pose moves with the momenta before the kick, at the constant rate of the beginning.
+class ExplicitEuler : public Integrator {
+ public:
+  explicit ExplicitEuler(const IntegratorOptions& options)
+      : drift_(batch::kernels().driftAtConstantRate, options) {}
+
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    const Wrenches* wrenches =
+        effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+    driftWithFlows(bodies, effects, time_s, h, [&] { drift_(bodies, nullptr, h); });
+    if (wrenches) kick(bodies, *wrenches, h);
   }
+
+ private:
+  Drift drift_;
 };
 
-enum class PoseMovesWith { kOldMomentum, kNewMomentum };
+/// With those after it.
+class SemiImplicit : public Integrator {
+ public:
+  explicit SemiImplicit(const IntegratorOptions& options)
+      : drift_(batch::kernels().driftAtConstantRate, options) {}
 
-template <PoseMovesWith pose_moves_with>
-struct MomentumEuler {
-  template <Gyroscopic gyroscopic>
-  class Method : public Integrator {
-   public:
-    explicit Method(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    const Wrenches* wrenches =
+        effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+    if (!effects.hasFlows()) return drift_(bodies, wrenches, h);
+    if (wrenches) kick(bodies, *wrenches, h);
+    driftWithFlows(bodies, effects, time_s, h, [&] { drift_(bodies, nullptr, h); });
+  }
 
-    void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-      const Wrenches* wrenches =
-          effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
-      if (wrenches && pose_moves_with == PoseMovesWith::kNewMomentum) kick(bodies, *wrenches, h);
-      driftWithFlows(bodies, effects, time_s, h,
-                     [&] { drift<ConstantRate>(bodies, h, ungyroscopic_); });
-      if (wrenches && pose_moves_with == PoseMovesWith::kOldMomentum) kick(bodies, *wrenches, h);
-    }
-
-   private:
-    Ungyroscopic<gyroscopic> ungyroscopic_;
-  };
+ private:
+  Drift drift_;
 };
-
-template <PoseMovesWith pose_moves_with>
-std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
-  return makeFor<MomentumEuler<pose_moves_with>::template Method>(options);
-}
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeExplicitEuler(const IntegratorOptions& options) {
-  return make<PoseMovesWith::kOldMomentum>(options);
+  return std::make_unique<ExplicitEuler>(options);
 }
 
 std::unique_ptr<Integrator> makeSemiImplicit(const IntegratorOptions& options) {
-  return make<PoseMovesWith::kNewMomentum>(options);
+  return std::make_unique<SemiImplicit>(options);
 }
 
 }  // namespace rigid_body_sim

@@ -1,141 +1,103 @@
-#include <array>
-#include <vector>
+#include <limits>
 
-#include "integrators/body_momentum.hpp"
+#include "integrators/columns.hpp"
 #include "integrators/families.hpp"
 #include "integrators/ungyroscopic.hpp"
 
 namespace rigid_body_sim {
 namespace {
 
-/// What one stage finds out about a body.
-struct Stage {
-  Vector3d v_WBcm;
-  Vector3d f_W;
-  Vector3d t_W;
-  Vector3d w_B;
-  Vector3d m_rate_B;
-};
+/// What the weighted sum of the stages' velocities makes of positions, of bodies whose v is not
+/// P / m.
+class AddedMassPath {
+ public:
+  void begin(const Bodies& bodies) {
+    carry_.clear();
+    for (Eigen::Index i = 0; i < bodies.count(); ++i)
+      if (bodies.carries(i)) carry_.push_back(i);
+    p_start_ = bodies.p_WBcm;
+    v_sum_.setZero(bodies.count(), 3);
+  }
+  void add(const Column3& v_WBcm, double weight) { v_sum_ += weight * v_WBcm; }
+  void moveStage(Bodies& stage, const Column3& v_WBcm, double h) const {
+    for (const Eigen::Index i : carry_) stage.p_WBcm.row(i) = p_start_.row(i) + h * v_WBcm.row(i);
+  }
+  void end(Bodies& bodies, double h) const { moveStage(bodies, v_sum_, h); }
 
-/// Weighted sum of the four stages, 1/6, 1/3, 1/3, 1/6.
-template <class Part>
-Vector3d mean(const std::array<Stage, 4>& k, Part part) {
-  return (1.0 / 6) * (part(k[0]) + 2 * (part(k[1]) + part(k[2])) + part(k[3]));
-}
+ private:
+  std::vector<Eigen::Index> carry_;
+  Column3 p_start_, v_sum_;
+};
 
 /// The classical method for positions and momenta; for the attitude its Lie group form with two
 /// commutators (H. Munthe-Kaas, Appl. Numer. Math. 29 (1999) 115), for q' = q w/2: the body's own
-/// rates multiply from the right, so commutators have the other sign.
-template <Gyroscopic gyroscopic>
+/// rates multiply from the right, so commutators have the other sign. Momenta in body axes, as said
+/// in body_momentum.hpp.
 class Rk4 : public Integrator {
  public:
   explicit Rk4(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    stages_.resize(static_cast<std::size_t>(bodies.count()));
-    momenta_.resize(stages_.size());
     if (effects.empty()) return stepFree(bodies, h);
-    stage_bodies_ = bodies;
-    constexpr std::array<double, 4> c = {0, 0.5, 0.5, 1};
-    constexpr std::array<double, 4> b = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+    const bool with_velocity = effects.needVelocities();
+    begin(bodies, with_velocity);
+    constexpr double c[] = {0, 0.5, 0.5, 1};
+    constexpr double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     for (int s = 0; s < 4; ++s) {
       const Wrenches& wrenches =
-          effects.evaluate(s == 0 ? bodies : stage_bodies_, time_s + c[s] * h, b[s] * h);
-      const Column3& v_WBcm = effects.instant().v_WBcm();
-      for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-        if (s == 0) momenta_[i] = bodyMomentum(bodies.state(i));
-        stages_[i][s].v_WBcm = v_WBcm.row(i);
-        finishStage(bodies, i, s, {wrenches.f_W.row(i), wrenches.t_Bcm_W.row(i)}, h);
-        if (s < 3) beginStage(bodies, i, s + 1, h);
-      }
+          effects.evaluate(s == 0 ? bodies : stage_, time_s + c[s] * h, b[s] * h);
+      if (bodies.hasAddedMass()) path_.add(effects.instant().v_WBcm(), b[s]);
+      endStage(bodies, wrenches, with_velocity, s, h);
+      if (bodies.hasAddedMass() && s < 3)
+        path_.moveStage(stage_, effects.instant().v_WBcm(), c[s + 1] * h);
     }
-    for (Eigen::Index i = 0; i < bodies.count(); ++i) endStep(bodies, i, h);
+    if (bodies.hasAddedMass()) path_.end(bodies, h);
     effects.stepTaken();
   }
 
  private:
-  static Vector3d bodyMomentum(const BodyState& body) {
-    return body.q_WB.conjugate() * body.L_WBcm_W;
+  void begin(const Bodies& bodies, bool with_velocity) {
+    tiles_.resize(bodies.count());
+    if (stage_.count() != bodies.count()) stage_ = bodies;
+    if (!with_velocity) stage_.L_WBcm_W.setConstant(std::numeric_limits<double>::quiet_NaN());
+    stage_.mass = bodies.mass;
+    stage_.I_BBcm_B = bodies.I_BBcm_B;
+    if (!bodies.hasAddedMass()) return;
+    stage_.inverse_mass_B = bodies.inverse_mass_B;
+    path_.begin(bodies);
   }
 
-  /// Without effects no stage needs an attitude.
   void stepFree(Bodies& bodies, double h) {
-    for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-      const BodyState body = bodies.state(i);
-      if (body.L_WBcm_W.isZero(0)) {
-        bodies.p_WBcm.row(i) += (h / bodies.mass(i)) * body.P_WB;
-        continue;
-      }
-      momenta_[i] = bodyMomentum(body);
-      std::array<Stage, 4>& k = stages_[i];
-      for (int s = 0; s < 4; ++s) {
-        k[s].v_WBcm = body.P_WB / bodies.mass(i);
-        k[s].f_W = k[s].t_W = Vector3d::Zero();
-        setRates(bodies, i, s, Vector3d::Zero(), h);
-      }
-      endStep(bodies, i, h);
-    }
+    const batch::BodyColumns columns = columnsOf(bodies);
+    ungyroscopic_.forRuns(bodies.count(), [&](batch::Range range, Gyroscopic gyroscopic) {
+      const auto step =
+          gyroscopic == Gyroscopic::kOn ? kernels_.rk4Free : kernels_.rk4FreeWithoutGyroscopicTerm;
+      step(columns, h, range);
+    });
   }
 
-  /// Momentum in body axes at which stage s looks.
-  Vector3d stageMomentum(Eigen::Index i, int s, double h) const {
-    if (s == 0) return momenta_[i];
-    return momenta_[i] + (s == 3 ? h : 0.5 * h) * stages_[i][s - 1].m_rate_B;
+  /// From the wrenches at stage s to the next one's state, or to the step's end.
+  void endStage(Bodies& bodies, const Wrenches& wrenches, bool with_velocity, int s, double h) {
+    const batch::BodyColumns columns = columnsOf(bodies), stages = columnsOf(stage_);
+    const auto withTerm = with_velocity ? kernels_.rk4StageWithVelocity : kernels_.rk4Stage;
+    ungyroscopic_.forRuns(bodies.count(), [&](batch::Range range, Gyroscopic gyroscopic) {
+      const auto stage =
+          gyroscopic == Gyroscopic::kOn ? withTerm : kernels_.rk4StageWithoutGyroscopicTerm;
+      stage(columns, stages, columnsOf(wrenches), tiles_.data(), s, h, range);
+    });
   }
 
-  void setRates(const Bodies& bodies, Eigen::Index i, int s, const Vector3d& t_B, double h) {
-    Stage& k = stages_[i][s];
-    const Vector3d m_B = stageMomentum(i, s, h);
-    k.w_B = m_B.cwiseQuotient(bodies.moments(i));
-    k.m_rate_B = momentumRate(ungyroscopic_.of(i), m_B, k.w_B, t_B);
-  }
-
-  /// The rates of stage s from the wrench at it.
-  void finishStage(const Bodies& bodies, Eigen::Index i, int s, const Wrench& wrench, double h) {
-    Stage& k = stages_[i][s];
-    const ColumnQ& q_WB = s == 0 ? bodies.q_WB : stage_bodies_.q_WB;
-    k.f_W = wrench.f_F;
-    k.t_W = wrench.t_Q_F;
-    setRates(bodies, i, s, Quaterniond(Eigen::Vector4d(q_WB.row(i))).conjugate() * k.t_W, h);
-  }
-
-  /// The state at which the effects of stage s are evaluated.
-  void beginStage(const Bodies& bodies, Eigen::Index i, int s, double h) {
-    const std::array<Stage, 4>& k = stages_[i];
-    const double ah = s == 3 ? h : 0.5 * h;
-    Vector3d turn = ah * k[s - 1].w_B;
-    if (s == 2) turn += (h * h / 8) * k[0].w_B.cross(k[1].w_B);
-    BodyState at = bodies.state(i);
-    at.p_WBcm += ah * k[s - 1].v_WBcm;
-    at.P_WB += ah * k[s - 1].f_W;
-    at.q_WB = at.q_WB * rotationExp(turn);
-    at.L_WBcm_W = at.q_WB * stageMomentum(i, s, h);
-    stage_bodies_.setState(i, at);
-  }
-
-  void endStep(Bodies& bodies, Eigen::Index i, double h) const {
-    const std::array<Stage, 4>& k = stages_[i];
-    BodyState body = bodies.state(i);
-    body.p_WBcm += h * mean(k, [](const Stage& s) { return s.v_WBcm; });
-    body.P_WB += h * mean(k, [](const Stage& s) { return s.f_W; });
-    const Vector3d turn =
-        h * mean(k, [](const Stage& s) { return s.w_B; }) + (h * h / 12) * k[0].w_B.cross(k[3].w_B);
-    const Vector3d m_B = momenta_[i] + h * mean(k, [](const Stage& s) { return s.m_rate_B; });
-    const Vector3d L_W = body.L_WBcm_W + h * mean(k, [](const Stage& s) { return s.t_W; });
-    setRotation(ungyroscopic_.of(i), body, body.q_WB * rotationExp(turn), m_B, L_W);
-    bodies.setState(i, body);
-  }
-
-  Ungyroscopic<gyroscopic> ungyroscopic_;
-  Bodies stage_bodies_;
-  std::vector<std::array<Stage, 4>> stages_;
-  std::vector<Vector3d> momenta_;  // in body axes, at the beginning of the step
+  const batch::Kernels& kernels_ = batch::kernels();
+  Ungyroscopic ungyroscopic_;
+  Bodies stage_;  // the state at which the effects of a stage are evaluated
+  AddedMassPath path_;
+  Tiles tiles_{batch::kRk4Numbers};
 };
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeRk4(const IntegratorOptions& options) {
-  return makeFor<Rk4>(options);
+  return std::make_unique<Rk4>(options);
 }
 
 }  // namespace rigid_body_sim

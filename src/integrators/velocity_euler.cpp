@@ -43,31 +43,26 @@ Vector3d nextAngularVelocity(const Vector3d& w_B, const Vector3d& t_B, const Vec
 }
 
 template <PoseMovesWith pose_moves_with, Gyration gyration>
-struct VelocityEuler {
-  template <Gyroscopic gyroscopic>
-  class Method : public Integrator {
-   public:
-    explicit Method(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
+class VelocityEuler : public Integrator {
+ public:
+  explicit VelocityEuler(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
 
-    void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-      const Wrenches* wrenches =
-          effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
-      driftWithFlows(bodies, effects, time_s, h, [&] {
-        for (Eigen::Index i = 0; i < bodies.count(); ++i) {
-          Wrench applied;
-          if (wrenches) applied = {wrenches->f_W.row(i), wrenches->t_Bcm_W.row(i)};
-          if (ungyroscopic_.has(i))
-            stepBody<Gyration::kNone>(bodies, i, applied, h);
-          else
-            stepBody<gyration>(bodies, i, applied, h);
-        }
-      });
-    }
+  void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
+    const Wrenches* wrenches =
+        effects.hasKicks() ? &effects.evaluateKicks(bodies, time_s, h) : nullptr;
+    driftWithFlows(bodies, effects, time_s, h, [&] {
+      for (Eigen::Index i = 0; i < bodies.count(); ++i) {
+        Wrench applied;
+        if (wrenches) applied = {wrenches->f_W.row(i), wrenches->t_Bcm_W.row(i)};
+        if (ungyroscopic_.has(i))
+          stepBody<Gyration::kNone>(bodies, i, applied, h);
+        else
+          stepBody<gyration>(bodies, i, applied, h);
+      }
+    });
+  }
 
-   private:
-    Ungyroscopic<gyroscopic> ungyroscopic_;
-  };
-
+ private:
   template <Gyration its_gyration>
   static void stepBody(Bodies& bodies, Eigen::Index i, const Wrench& applied, double h) {
     BodyState body = bodies.state(i);
@@ -87,11 +82,13 @@ struct VelocityEuler {
     body.L_WBcm_W = body.q_WB * I.cwiseProduct(body.q_WB.conjugate() * next.w_WB);
     bodies.setState(i, body);
   }
+
+  Ungyroscopic ungyroscopic_;
 };
 
 template <PoseMovesWith pose_moves_with, Gyration gyration>
 std::unique_ptr<Integrator> make(const IntegratorOptions& options) {
-  return makeFor<VelocityEuler<pose_moves_with, gyration>::template Method>(options);
+  return std::make_unique<VelocityEuler<pose_moves_with, gyration>>(options);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   reportPace(status);
   reportInputs(status);
   reportAccuracy(status);
-  reportSpin(status);
+  reportStability(status);
   reportFrozen(status);
 }
 
@@ -108,7 +108,10 @@ void Diagnostics::reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& st
                         "the accuracy budget breaks: " + toText(*accuracy->worst_now, scene));
 }
 
-void Diagnostics::reportSpin(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void Diagnostics::reportStability(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (const auto stiff = simulator_.stiffBody())
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        simulator_.scene().bodies[stiff->body].name + ": " + stiff->why);
   const auto body = simulator_.overTurnedBody();
   if (!body) return;
   status.mergeSummaryf(DiagnosticStatus::WARN, "%s turns by %.3g rad a step, and %s bears %.3g",

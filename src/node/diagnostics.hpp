@@ -21,7 +21,7 @@ class Diagnostics {
   void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportInputs(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportAccuracy(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void reportSpin(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void reportStability(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportFrozen(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const Simulator& simulator_;

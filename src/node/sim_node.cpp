@@ -171,17 +171,21 @@ bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& re
 }
 
 bool SimNode::switchEffect(SwitchEffect::Request& request, SwitchEffect::Response& response) {
+  const std::string effect = request.effect, state = request.active ? "on" : "off";
+  bool is_new = false;
   try {
-    simulator_.switchEffect(request.effect, request.active);
+    is_new = simulator_.switchEffect(effect, request.active);
   } catch (const std::invalid_argument& error) {
     response.message = error.what();
     return true;
   }
   response.success = true;
   response.message = summary(simulator_.scene());
-  ROS_INFO("%s is switched %s from tick %ld on: %s", request.effect.c_str(),
-           request.active ? "on" : "off", static_cast<long>(simulator_.tick()),
-           response.message.c_str());
+  if (is_new)
+    ROS_INFO("%s is switched %s from tick %ld on: %s", effect.c_str(), state.c_str(),
+             static_cast<long>(simulator_.tick()), response.message.c_str());
+  else
+    response.message = effect + " is " + state + " already: " + response.message;
   return true;
 }
 

@@ -79,10 +79,11 @@ HardCase absurdSpinner() {
       {{"explicit_euler_velocity", "semi_implicit_velocity"}, Outcome::kInfinite, kTooFar},
       {{"semi_implicit_newton"}, Outcome::kWrong, kTooFar},
       {kFirstOrder, Outcome::kWrong, "bounded as L is kept, but any motion"},
-      {kRungeKutta, Outcome::kRefused, "bear 1 and 2 rad a step, and say how many substeps do"},
-      {{"adaptive"},
-       Outcome::kInfinite,
-       "takes a thousandth of a tick at least, which is 2000 rad: frozen"}};
+      {{"split2"},
+       Outcome::kDrifts,
+       "makes m of the attitude: its roundings wander, and 2e6 rad a step show it"},
+      {kRungeKutta + Rungs{"adaptive"}, Outcome::kRefused,
+       "bear 1, 2 and 200 rad a step, and say how many substeps do"}};
   return one;
 }
 

@@ -16,6 +16,24 @@ RBS_INLINE auto kicked(const Place& at, double* columns, std::ptrdiff_t stride, 
   return v;
 }
 
+/// A number times zero is zero, but for what is not finite.
+template <class S>
+bool areFinite(const BodyColumns& of, Range range) {
+  const BodyColumns bodies = of;
+  bool are = true;
+  forPacks<S>(range.begin, range.end, [&](const auto& at) {
+    const std::ptrdiff_t n = bodies.stride;
+    const auto p = loadVector(at, bodies.p_WBcm, n), P = loadVector(at, bodies.P_WB, n),
+               L = loadVector(at, bodies.L_WBcm_W, n);
+    const auto q = loadQuaternion(at, bodies.q_WB, n);
+    const auto zero = 0.0 * p.x + 0.0 * p.y + 0.0 * p.z + (0.0 * P.x + 0.0 * P.y + 0.0 * P.z) +
+                      (0.0 * L.x + 0.0 * L.y + 0.0 * L.z) +
+                      (0.0 * q.x + 0.0 * q.y + 0.0 * q.z + 0.0 * q.w);
+    are = are & all(zero == 0);
+  });
+  return are;
+}
+
 template <class S>
 void kick(const BodyColumns& to, const WrenchColumns& by, double h, Range range) {
   const BodyColumns bodies = to;  // a copy, which no store can change

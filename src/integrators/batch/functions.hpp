@@ -93,8 +93,10 @@ RBS_INLINE SinCos<S> sinCos(S x) {
     const S z = x * x;
     return {x + x * z * sincTail(z), cosOfSquare(z)};
   }
-  SinCos<S> f = sinCosOfModerate(x);
-  if (__builtin_expect(any(!(magnitude(x) <= kLargestAngle)), 0)) replaceHuge(x, f);
+  const auto is_moderate = magnitude(x) <= kLargestAngle;
+  if (__builtin_expect(all(is_moderate), 1)) return sinCosOfModerate(x);
+  SinCos<S> f = sinCosOfModerate(select(is_moderate, x, S(0.0)));
+  replaceHuge(x, f);
   return f;
 }
 
@@ -115,15 +117,13 @@ RBS_INLINE CosSinc<S> cosSincOfSmall(S x2) {
 
 template <class S>
 RBS_INLINE CosSinc<S> cosSinc(S x2) {
-  CosSinc<S> f = cosSincOfSmall(x2);
   const auto is_small = x2 <= kLargestSquare;
-  if (!all(is_small)) {
-    const S x = root(x2);
-    const SinCos<S> g = sinCos(x);
-    f.cos = select(is_small, f.cos, g.cos);
-    f.sinc = select(is_small, f.sinc, g.sin / x);
-  }
-  return f;
+  if (all(is_small)) return cosSincOfSmall(x2);
+  // The others' numbers must not overflow in the polynomials, nor zeros be divided by.
+  const CosSinc<S> f = cosSincOfSmall(select(is_small, x2, S(0.0)));
+  const S x = root(select(is_small, S(1.0), x2));
+  const SinCos<S> g = sinCos(x);
+  return {select(is_small, f.cos, g.cos), select(is_small, f.sinc, g.sin / x)};
 }
 
 }  // namespace

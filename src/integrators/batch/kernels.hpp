@@ -13,6 +13,9 @@ struct Kernels {
   const char* name;
   int width;  ///< numbers in a register
 
+  /// Whether all numbers of the states are finite.
+  bool (*areFinite)(const BodyColumns&, Range);
+
   /// P += h f, L += h t.
   void (*kick)(const BodyColumns&, const WrenchColumns&, double h, Range);
 

@@ -215,20 +215,41 @@ RBS_INLINE S inversePower(S x) {
   return 0.5 * mirroredPower(0.5 * x);
 }
 
+#if defined(__AVX2__)
+/// The first `count` lanes.
+RBS_INLINE Register<4>::Bits firstLanes(int count) {
+  const Register<4>::Bits index = {0, 1, 2, 3};
+  return index < count;
+}
+#endif
+
 /// The first `count` numbers; the other lanes repeat the first one.
 template <class S>
-[[gnu::noinline]] S loadPart(const double* from, int count) {
-  double all[kWidth<S>];
-  for (int i = 0; i < kWidth<S>; ++i) all[i] = from[i < count ? i : 0];
+RBS_INLINE S loadPart(const double* from, int count) {
+#if defined(__AVX512F__)
+  if constexpr (kWidth<S> == 8)
+    return S(_mm512_mask_loadu_pd(S(*from).lanes, (1u << count) - 1, from));
+#endif
+#if defined(__AVX2__)
+  if constexpr (kWidth<S> == 4) {
+    const auto which = firstLanes(count);
+    const __m256d loaded = _mm256_maskload_pd(from, (__m256i)which);
+    return S(_mm256_blendv_pd(S(*from).lanes, loaded, (__m256d)which));
+  }
+#endif
   S x;
-  __builtin_memcpy(&x.lanes, all, sizeof(all));
+  for (int i = 0; i < kWidth<S>; ++i) x.lanes[i] = from[i < count ? i : 0];
   return x;
 }
 template <class S>
-[[gnu::noinline]] void storePart(double* to, S x, int count) {
-  double all[kWidth<S>];
-  __builtin_memcpy(all, &x.lanes, sizeof(all));
-  for (int i = 0; i < count; ++i) to[i] = all[i];
+RBS_INLINE void storePart(double* to, S x, int count) {
+#if defined(__AVX512F__)
+  if constexpr (kWidth<S> == 8) return _mm512_mask_storeu_pd(to, (1u << count) - 1, x.lanes);
+#endif
+#if defined(__AVX2__)
+  if constexpr (kWidth<S> == 4) return _mm256_maskstore_pd(to, (__m256i)firstLanes(count), x.lanes);
+#endif
+  for (int i = 0; i < count; ++i) to[i] = x.lanes[i];
 }
 
 /// Which numbers of the columns a pack is: those from `begin` on. With is_part only the first

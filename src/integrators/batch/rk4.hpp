@@ -43,8 +43,9 @@ RBS_INLINE Quaternion<S> aligned(const Quaternion<S>& q_WB, const Vector<S>& m_B
   const Quaternion<S> turned = Quaternion<S>{axis.x, axis.y, axis.z, size + cosine} * q_WB;
   const S length = root(squaredNorm(turned));
   const auto is_still = isZero(m_B);
+  const S safe = select(length == 0, S(1.0), length);
   const auto turns = (largest(L_W) > 0.1 * largest(before)) & (cosine > 0.9999 * size) & !is_still;
-  return select(turns, scaled(1 / length, turned), q_WB);
+  return select(turns, scaled(1 / safe, turned), q_WB);
 }
 
 /// The end of a step at the body's `turn` [rad], in body axes.

@@ -85,6 +85,15 @@ RBS_INLINE void storeCoasting(const Tile& tile, M mask, const Coasting<S>& x) {
   storeMoved(tile, mask, x);
 }
 
+/// What a body has that does not coast: steps of it beside bodies that do are harmless.
+template <class S>
+RBS_INLINE Coasting<S> standingStill() {
+  const S one(1.0), none(0.0);
+  return {
+      {none, none, none, one}, {one, none}, {none, one, one}, one, none, none, one, none, one, none,
+      {none, one, one},        {one, none}};
+}
+
 template <class S>
 RBS_INLINE double lane(const S& x, int i) {
   if constexpr (kWidth<S> == 1)
@@ -119,36 +128,6 @@ template <class S>
   return all;
 }
 
-/// Takes up the bodies that somebody else has moved.
-template <class S>
-void recallSpins(const BodyColumns& of, double* tiles, Range range) {
-  const BodyColumns bodies = of;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
-    using T = NumberOf<decltype(at)>;
-    const auto tile = inTile<kSpinNumbers>(at, tiles);
-    const Quaternion<T> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
-    const Vector<T> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
-    const Quaternion<T> old_q = tile.loadQuaternion(kSpinQ);
-    const Vector<T> old_L = tile.loadVector(kSpinL);
-    const auto is_known = ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) &
-                          ((old_q.z == q_WB.z) & (old_q.w == q_WB.w)) &
-                          ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
-    if (all(is_known)) return;
-    const auto is_new = !is_known;
-    const InverseMoments<T> a = inverseMoments(loadVector(at, bodies.I_BBcm_B, bodies.stride));
-    const T none(0.0);
-    tile.storeQuaternion(kSpinQ, q_WB);
-    tile.storeVector(kSpinL, L_W);
-    tile.storeVector(kSpinM, momentumAnew<T>(is_new, q_WB, L_W, tile.loadVector(kSpinM)));
-    storeWhere(tile, is_new, kSpinInverse, a.a2);
-    storeWhere(tile, is_new, kSpinInverse + 1, a.a13);
-    storeWhere(tile, is_new, kSpinInverse + 2, a.d12);
-    storeWhere(tile, is_new, kSpinInverse + 3, a.d23);
-    storeWhere(tile, is_new, kSpinDrift, none);
-    storeWhere(tile, is_new, kSpinIsCoasting, none);
-  });
-}
-
 /// Ends the coasting of lanes. @returns the momentum of all
 template <class Tile, class M>
 RBS_INLINE auto momentumAfterCoasting(const Tile& tile, M ends) {
@@ -160,6 +139,57 @@ RBS_INLINE auto momentumAfterCoasting(const Tile& tile, M ends) {
     storeWhere(tile, coasted, kSpinIsCoasting, S(0.0));
   }
   return m_B;
+}
+
+/// Takes up lanes of which somebody else has changed the angular momentum alone: as a kick does.
+template <class Tile, class M, class S>
+RBS_INLINE void recallMomenta(const Tile& tile, M mask, const Quaternion<S>& q_WB,
+                              const Vector<S>& L_W) {
+  const Vector<S> m_B = momentumAfterCoasting(tile, mask);
+  const Vector<S> old_L = tile.loadVector(kSpinL);
+  tile.storeVector(kSpinM, select(mask, m_B + rotatedBack(q_WB, L_W - old_L), m_B));
+  tile.storeVector(kSpinL, select(mask, L_W, old_L));
+  storeWhere(tile, mask, kSpinDrift, S(0.0));
+}
+
+/// Takes up lanes anew.
+template <class Tile, class M, class S>
+RBS_INLINE void recallAll(const Tile& tile, M mask, const Quaternion<S>& q_WB, const Vector<S>& L_W,
+                          const InverseMoments<S>& a) {
+  const S none(0.0);
+  tile.storeQuaternion(kSpinQ, select(mask, q_WB, tile.loadQuaternion(kSpinQ)));
+  tile.storeVector(kSpinL, select(mask, L_W, tile.loadVector(kSpinL)));
+  tile.storeVector(kSpinM, momentumAnew<S>(mask, q_WB, L_W, tile.loadVector(kSpinM)));
+  storeWhere(tile, mask, kSpinInverse, a.a2);
+  storeWhere(tile, mask, kSpinInverse + 1, a.a13);
+  storeWhere(tile, mask, kSpinInverse + 2, a.d12);
+  storeWhere(tile, mask, kSpinInverse + 3, a.d23);
+  storeWhere(tile, mask, kSpinDrift, none);
+  storeWhere(tile, mask, kSpinIsCoasting, none);
+  storeCoasting(tile, mask, standingStill<S>());
+}
+
+/// Takes up the bodies that somebody else has moved.
+template <class S>
+void recallSpins(const BodyColumns& of, double* tiles, Range range) {
+  const BodyColumns bodies = of;
+  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+    using T = NumberOf<decltype(at)>;
+    const auto tile = inTile<kSpinNumbers>(at, tiles);
+    const Quaternion<T> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+    const Vector<T> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
+    const Quaternion<T> old_q = tile.loadQuaternion(kSpinQ);
+    const Vector<T> old_L = tile.loadVector(kSpinL);
+    const auto is_here =
+        ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) & ((old_q.z == q_WB.z) & (old_q.w == q_WB.w));
+    const auto is_known = is_here & ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
+    if (all(is_known)) return;
+    const auto is_kicked = is_here & !is_known;
+    if (any(is_kicked)) recallMomenta(tile, is_kicked, q_WB, L_W);
+    if (all(is_here)) return;
+    const auto I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
+    recallAll(tile, !is_here, q_WB, L_W, inverseMoments(I));
+  });
 }
 
 template <class S>
@@ -197,9 +227,11 @@ RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Q
   if (!any(is_off)) return;
   const auto is_lost = off2 > 1e-24 * size2;
   if (any(is_off & is_lost)) m_B = momentumAnew<S>(is_off & is_lost, q_WB, L_W, m_B);
-  const Vector<S> half = (0.5 / size2) * cross(now, L_W);
+  const auto turns = is_off & !is_lost;
+  if (!any(turns)) return;
+  const Vector<S> half = (0.5 / select(turns, size2, S(1.0))) * cross(now, L_W);
   const Quaternion<S> turned = renormalized(Quaternion<S>{half.x, half.y, half.z, S(1.0)} * q_WB);
-  q_WB = select(is_off & !is_lost, turned, q_WB);
+  q_WB = select(turns, turned, q_WB);
 }
 
 template <class Tile>
@@ -208,14 +240,45 @@ RBS_INLINE InverseMoments<typename Tile::S> loadInverse(const Tile& tile) {
           tile.load(kSpinInverse + 3)};
 }
 
+/// A body whose rotation is to be worked out.
+template <class S>
+struct Rotor {
+  Vector<S> m_B;
+  Vector<S> I;
+  InverseMoments<S> a;
+};
+
+/// Lanes outside the mask get the numbers of one inside, lest they divide by zero.
+template <class S>
+RBS_INLINE void fillFrom(typename MaskOf<S>::Type mask, S& x) {
+  x = select(mask, x, S(lane(x, __builtin_ctz(bits(mask)))));
+}
+template <class S>
+RBS_INLINE Rotor<S> filled(typename MaskOf<S>::Type mask, Rotor<S> x) {
+  if (all(mask)) return x;
+  for (S* number : {&x.m_B.x, &x.m_B.y, &x.m_B.z, &x.I.x, &x.I.y, &x.I.z, &x.a.a2, &x.a.a13,
+                    &x.a.d12, &x.a.d23})
+    fillFrom(mask, *number);
+  return x;
+}
+
+template <class Place, class Tile, class S>
+RBS_INLINE Rotor<S> rotorOf(const Place& at, const BodyColumns& bodies, const Tile& tile,
+                            typename MaskOf<S>::Type mask, const Vector<S>& m_B) {
+  return filled<S>(mask, {m_B, loadVector(at, bodies.I_BBcm_B, bodies.stride), loadInverse(tile)});
+}
+
 /// Turns lanes that do not coast.
 template <class Place, class M>
 [[gnu::noinline]] void rotateSpins(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
   using S = typename Place::Number;
   const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const Vector<S> m_B = momentumAfterCoasting(tile, mask);
-  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
-  const FreeRotation<S> free = exactRotation(m_B, I, loadInverse(tile), h);
+  Vector<S> m_B = momentumAfterCoasting(tile, mask);
+  const auto is_lost = mask & isZero(m_B);  // a kick took all but roundings of L
+  if (any(is_lost))
+    m_B = momentumAnew<S>(is_lost, tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinL), m_B);
+  const Rotor<S> rotor = rotorOf(at, bodies, tile, mask, m_B);
+  const FreeRotation<S> free = exactRotation(rotor.m_B, rotor.I, rotor.a, h);
   const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
   Quaternion<S> next = renormalized(q_WB * free.q_BBnext);
   Vector<S> m_next = free.m_B;
@@ -232,10 +295,9 @@ template <class Place, class M>
 [[gnu::noinline]] void beginToCoast(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
   using S = typename Place::Number;
   const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const Vector<S> I = loadVector(at, bodies.I_BBcm_B, bodies.stride);
-  storeCoasting(
-      tile, mask,
-      coastingOf<S>(tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinM), I, loadInverse(tile), h));
+  const Rotor<S> rotor = rotorOf(at, bodies, tile, mask, tile.loadVector(kSpinM));
+  storeCoasting(tile, mask,
+                coastingOf<S>(tile.loadQuaternion(kSpinQ), rotor.m_B, rotor.I, rotor.a, h));
   storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
 }
 

@@ -19,6 +19,7 @@ void kickAndDrift(const BodyColumns& bodies, const WrenchColumns* wrenches, doub
 template <class S>
 void fillTable(Kernels& table) {
   table.width = kWidth<S>;
+  table.areFinite = areFinite<S>;
   table.kick = kick<S>;
   table.driftPositions = driftPositions<S>;
   table.driftAtConstantRate = kickAndDrift<S, ConstantRate>;

@@ -76,18 +76,11 @@ double totalIn(const std::string& path) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double instructionsOf(const std::vector<std::string>& program) {
-  std::string path = (std::filesystem::temp_directory_path() / "callgrind.XXXXXX").string();
-  const int file = mkstemp(path.data());
-  if (file < 0) return std::numeric_limits<double>::quiet_NaN();
-  close(file);
-  std::vector<std::string> command = {"valgrind", "--tool=callgrind",
-                                      "--callgrind-out-file=" + path};
-  command.insert(command.end(), program.begin(), program.end());
-  const int code = runSilently(command);
-  const double total = totalIn(path);
-  std::filesystem::remove(path);
-  return code == 0 ? total : std::numeric_limits<double>::quiet_NaN();
+/// Ticks enough for a mean, as long as they are not too many steps: callgrind takes some 0.1 s for
+/// 10,000 of one body.
+Tick countedTicks(const Method& method) {
+  constexpr Tick kMost = 300, kLeast = 4, kMostSteps = 4000;
+  return std::min(kMost, std::max<Tick>(kLeast, kMostSteps / method.substeps));
 }
 
 }  // namespace
@@ -122,16 +115,36 @@ double evaluationsATick(const Scene& scene, const Method& method) {
   return static_cast<double>(count) / kTicks;
 }
 
-void step(const Scene& scene, const Method& method, Tick ticks) {
-  Simulator simulator(withMethod(scene, method));
+/// What callgrind counts.
+extern "C" __attribute__((noinline)) void stepTicks(Simulator& simulator, Tick ticks) {
   for (Tick i = 0; i < ticks; ++i) simulator.step();
 }
 
-double instructionsATick(std::size_t bodies, const Method& method, const StepCommand& command) {
-  constexpr Tick kFew = 100, kMany = 400;
-  const double few = instructionsOf(command(method, kFew));
-  const double many = instructionsOf(command(method, kMany));
-  return (many - few) / static_cast<double>((kMany - kFew)) / static_cast<double>(bodies);
+void stepAsCounted(const Scene& scene, const std::vector<Method>& methods) {
+  for (const Method& method : methods) {
+    Simulator simulator(withMethod(scene, method));
+    simulator.step();  // the first allocates
+    stepTicks(simulator, countedTicks(method));
+  }
+}
+
+std::vector<double> instructionsATick(std::size_t bodies, const std::vector<Method>& methods,
+                                      const StepCommand& command) {
+  namespace fs = std::filesystem;
+  std::string folder = (fs::temp_directory_path() / "callgrind.XXXXXX").string();
+  std::vector<double> counts(methods.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!mkdtemp(folder.data())) return counts;
+  const std::string path = folder + "/out";
+  std::vector<std::string> words = {"valgrind", "--tool=callgrind", "--toggle-collect=stepTicks",
+                                    "--dump-after=stepTicks", "--callgrind-out-file=" + path};
+  const std::vector<std::string> program = command(methods);
+  words.insert(words.end(), program.begin(), program.end());
+  if (runSilently(words) == 0)
+    for (std::size_t k = 0; k < methods.size(); ++k)  // a file for each call, from 1 on
+      counts[k] = totalIn(path + "." + std::to_string(k + 1)) /
+                  static_cast<double>(countedTicks(methods[k])) / static_cast<double>(bodies);
+  fs::remove_all(folder);
+  return counts;
 }
 
 }  // namespace rigid_body_sim::report

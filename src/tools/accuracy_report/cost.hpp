@@ -30,14 +30,19 @@ std::vector<Cost> costsOf(const Scene& scene, const std::vector<Timed>& methods,
 /// How often the effects are evaluated in a tick, counted while one acts; the mean of 50 ticks.
 double evaluationsATick(const Scene& scene, const Method& method);
 
-/// Steps the scene so often, and nothing else.
-void step(const Scene& scene, const Method& method, Tick ticks);
+/// Steps the scene by each of these methods in turn, for instructionsATick() to count: fewer ticks
+/// of those with many substeps.
+void stepAsCounted(const Scene& scene, const std::vector<Method>& methods);
 
-/// The command line of a program that steps the scene by `method` so often and ends.
-using StepCommand = std::function<std::vector<std::string>(const Method& method, Tick ticks)>;
+/// The command line of a program that does stepAsCounted() with these methods of one rung, and
+/// ends.
+using StepCommand = std::function<std::vector<std::string>(const std::vector<Method>& methods)>;
 
-/// Instructions of a body's tick, by valgrind's callgrind: 300 ticks more than 100, so that what
-/// the program does besides is not in it. NaN if there is no valgrind or it fails.
-double instructionsATick(std::size_t bodies, const Method& method, const StepCommand& command);
+/// Instructions of a body's tick by each of the methods, which are of one rung: the mean of 300
+/// ticks after the first, or of fewer, but at least 4, if that were more than 4000 steps. By
+/// valgrind's callgrind, all in one process, whose start takes longer than the counting. NaN if
+/// there is no valgrind or it fails.
+std::vector<double> instructionsATick(std::size_t bodies, const std::vector<Method>& methods,
+                                      const StepCommand& command);
 
 }  // namespace rigid_body_sim::report

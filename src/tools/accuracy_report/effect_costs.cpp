@@ -66,7 +66,8 @@ Scene withEffects(Scene scene, const std::vector<std::string>& names) {
 }
 
 EffectCosts effectCosts(const Scene& scene, const Method& method, int repeats,
-                        const EffectStepCommand& command) {
+                        const EffectStepCommand& command,
+                        const std::function<void(const std::string&)>& tell) {
   const std::vector<std::string> all = effectNamesOf(scene);
   std::vector<std::vector<std::string>> choices = {{}};
   for (const std::string& name : all) choices.push_back({name});
@@ -78,10 +79,13 @@ EffectCosts effectCosts(const Scene& scene, const Method& method, int repeats,
   std::vector<EffectCost> costs;
   for (std::size_t k = 0; k < choices.size(); ++k) {
     costs.push_back({choices[k].empty() ? "" : choices[k].front(), scene.bodies.size(), times[k]});
-    if (command)
-      costs.back().instructions = instructionsATick(
-          scene.bodies.size(), method,
-          [&](const Method& by, Tick ticks) { return command(by, choices[k], ticks); });
+    if (command) {
+      tell(k == 0 ? "none" : k + 1 == choices.size() ? "together" : choices[k].front());
+      costs.back().instructions =
+          instructionsATick(scene.bodies.size(), {method}, [&](const std::vector<Method>& methods) {
+            return command(methods, choices[k]);
+          }).front();
+    }
     if (k == 0) continue;
     costs[k].bodies = bodiesOf(scene, costs[k].name);
     costs[k].time_ns -= costs[0].time_ns;

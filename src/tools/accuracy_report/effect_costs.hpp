@@ -24,9 +24,9 @@ struct EffectCosts {
   EffectCost together;            ///< all of them, above `none`
 };
 
-/// The command line of a program that steps the scene with these effects alone, and ends.
+/// The command line of a program that does stepAsCounted() with these effects alone, and ends.
 using EffectStepCommand = std::function<std::vector<std::string>(
-    const Method& method, const std::vector<std::string>& effects, Tick ticks)>;
+    const std::vector<Method>& methods, const std::vector<std::string>& effects)>;
 
 /// Names of the scene's effects, each once.
 std::vector<std::string> effectNamesOf(const Scene& scene);
@@ -35,8 +35,10 @@ std::vector<std::string> effectNamesOf(const Scene& scene);
 Scene withEffects(Scene scene, const std::vector<std::string>& names);
 
 /// Timed in turn, medians of `repeats` runs; counted if there is a command.
+/// @param tell is told before each count what comes: `none`, an effect, `together`
 EffectCosts effectCosts(const Scene& scene, const Method& method, int repeats,
-                        const EffectStepCommand& command);
+                        const EffectStepCommand& command,
+                        const std::function<void(const std::string&)>& tell);
 
 /// A table, a line an effect.
 void print(const EffectCosts& costs, std::ostream& out);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -23,7 +24,7 @@ struct Arguments {
   bool has_no_plots = false;
   bool counts_instructions = false;
   bool lists_cases = false;
-  Tick only_step = 0;
+  bool only_counts = false;
   std::vector<std::string> only_effects;
   Plan plan;
 };
@@ -59,34 +60,48 @@ void listCases() {
 StepCommand stepCommand(const Arguments& arguments) {
   const std::string scene = arguments.scene_file;
   const std::string name = arguments.case_name;
-  return [scene, name](const Method& method, Tick ticks) {
-    std::ostringstream tolerance;
-    tolerance << "--tolerances=" << method.tolerance;
+  return [scene, name](const std::vector<Method>& methods) {
+    std::ostringstream substeps, tolerances;
+    for (const Method& method : methods) {
+      const char* comma = &method == &methods.front() ? "" : ",";
+      substeps << comma << method.substeps;
+      tolerances << comma << method.tolerance;
+    }
     // The scene first: an option that takes a list would swallow it.
     return std::vector<std::string>{ownPath(),
                                     scene.empty() ? "--case=" + name : scene,
-                                    "--only-step=" + std::to_string(ticks),
-                                    "--integrators=" + method.integrator,
-                                    "--substeps=" + std::to_string(method.substeps),
-                                    tolerance.str()};
+                                    "--only-count",
+                                    "--integrators=" + methods.front().integrator,
+                                    "--substeps=" + substeps.str(),
+                                    "--tolerances=" + tolerances.str()};
   };
 }
 
 EffectStepCommand effectStepCommand(const StepCommand& command) {
-  return [command](const Method& method, const std::vector<std::string>& effects, Tick ticks) {
+  return [command](const std::vector<Method>& methods, const std::vector<std::string>& effects) {
     std::string names;
     for (const std::string& effect : effects) names += (names.empty() ? "" : ",") + effect;
-    std::vector<std::string> words = command(method, ticks);
+    std::vector<std::string> words = command(methods);
     words.push_back("--only-effects=" + (names.empty() ? "none" : names));
     return words;
   };
 }
 
-/// A bar on a terminal; nothing into files.
+/// Where a bar would not do: a line every now and then, none in a run that is done before.
+void tellProgress(const std::string& what, double part) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kEvery(5);
+  static Clock::time_point last = Clock::now();
+  if (Clock::now() - last < kEvery) return;
+  last = Clock::now();
+  std::fprintf(stderr, "%3d %%: %s\n", static_cast<int>(100 * part), what.c_str());
+}
+
+/// A bar on a terminal, else lines.
 void showProgress(const std::string& what, double part) {
   static const bool is_terminal = isatty(STDERR_FILENO) == 1;
   constexpr int kWidth = 40;
-  if (!is_terminal) return;
+  if (!is_terminal) return part < 1 ? tellProgress(what, part) : void();
   const int done = static_cast<int>(part * kWidth);
   const std::string bar = std::string(done, '#') + std::string(kWidth - done, '.');
   std::fprintf(stderr, "\r[%s] %3d %% %-40.40s", bar.c_str(), static_cast<int>(100 * part),
@@ -116,13 +131,14 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--longest", plan.longest_s, "wall time a flight may take [s], default 10")
       ->check(within(1e-3, 1e6, "s"));
   app.add_flag("--instructions", arguments.counts_instructions,
-               "count instructions with valgrind; some seconds a row");
+               "count instructions with valgrind; some seconds a rung");
   const auto output =
       app.add_option("--output", arguments.output, "folder for CSV files and plots; default none");
   app.add_flag("--no-plots", arguments.has_no_plots, "write the CSV files only")->needs(output);
-  app.add_option("--only-step", arguments.only_step,
-                 "step the one method so many ticks and end, for valgrind or perf to look at")
-      ->check(within(1, 1e9, "ticks", true));
+  app.add_flag(
+      "--only-count", arguments.only_counts,
+      "step one rung as --instructions counts it and end, for valgrind or perf to look at: "
+      "4 to 300 ticks of each row, in stepTicks()");
   app.add_option("--only-effects", arguments.only_effects,
                  "step with these of the scene's effects alone, or `none`")
       ->delimiter(',');
@@ -147,13 +163,17 @@ void fillDefaults(Plan& plan) {
   if (plan.tolerances.empty()) plan.tolerances = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 }
 
-void onlyStep(const Arguments& arguments) {
+void onlyCount(const Arguments& arguments) {
   const Plan& plan = arguments.plan;
-  if (plan.rungs.size() != 1) throw std::invalid_argument("--only-step wants one integrator");
+  if (plan.rungs.size() != 1) throw std::invalid_argument("--only-count wants one integrator");
   const Scene scene =
       arguments.only_effects.empty() ? plan.scene : withEffects(plan.scene, arguments.only_effects);
-  step(scene, {plan.rungs.front(), plan.substeps.front(), plan.tolerances.front()},
-       arguments.only_step);
+  const bool adapts = integratorNamed(plan.rungs.front()).order == 0;
+  std::vector<Method> methods;
+  for (std::size_t k = 0; k < (adapts ? plan.tolerances.size() : plan.substeps.size()); ++k)
+    methods.push_back({plan.rungs.front(), adapts ? 1 : plan.substeps[k],
+                       adapts ? plan.tolerances[k] : Method().tolerance});
+  stepAsCounted(scene, methods);
 }
 
 /// Hands over to the script, which stands beside this program; it says where the pictures are.
@@ -168,7 +188,7 @@ int run(Arguments& arguments) {
   if (arguments.lists_cases) return listCases(), 0;
   readScene(arguments);
   fillDefaults(arguments.plan);
-  if (arguments.only_step > 0) return onlyStep(arguments), 0;
+  if (arguments.only_counts) return onlyCount(arguments), 0;
   if (arguments.counts_instructions) {
     arguments.plan.count_instructions_with = stepCommand(arguments);
     arguments.plan.count_effects_with = effectStepCommand(stepCommand(arguments));

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "core/suitability.hpp"
 #include "reference/cases.hpp"
 #include "tools/accuracy_report/truth.hpp"
 
@@ -38,6 +40,13 @@ std::vector<Row> rowsOf(const IntegratorRow& rung, const Plan& plan) {
   return rows;
 }
 
+/// With any step.
+bool feedsDrag(const IntegratorRow& rung, const Scene& scene) {
+  return rung.order != 0 &&
+         std::any_of(scene.effects.begin(), scene.effects.end(),
+                     [&](const auto& effect) { return orderUnder(rung, *effect) == 0; });
+}
+
 /// Why the row's method would be misused on this scene; empty if it would not.
 std::string refusal(const Row& row, const Scene& scene, double angular_speed) {
   const IntegratorRow& rung = integratorNamed(row.method.integrator);
@@ -47,11 +56,7 @@ std::string refusal(const Row& row, const Scene& scene, double angular_speed) {
     why.precision(2);
     why << "|w| h is " << turn << " rad, at most " << rung.max_turn;
   }
-  const bool dissipates =
-      std::any_of(scene.effects.begin(), scene.effects.end(),
-                  [](const auto& effect) { return effect->dependsOnVelocity(); });
-  if (rung.order_under_drag == 0 && rung.order != 0 && dissipates)
-    why << "its steps back in time would turn drag into growth";
+  if (feedsDrag(rung, scene)) why << "its steps back in time would turn drag into growth";
   return why.str();
 }
 
@@ -67,7 +72,7 @@ std::string rounded(double number) {
   return text.str();
 }
 
-void flyRow(Row& row, const Plan& plan, const Report& report, double angular_speed) {
+void flyRow(Row& row, const Report& report, double angular_speed) {
   const std::string why = refusal(row, report.scene, angular_speed);
   if (!why.empty()) return setOutcome(row, Outcome::kRefused, "refused: " + why);
   try {
@@ -79,9 +84,21 @@ void flyRow(Row& row, const Plan& plan, const Report& report, double angular_spe
   if (std::isfinite(row.flight.infinite_after_s))
     setOutcome(row, Outcome::kInfinite,
                "infinite after " + rounded(row.flight.infinite_after_s) + " s");
-  if (plan.count_instructions_with)
-    row.instructions =
-        instructionsATick(report.scene.bodies.size(), row.method, plan.count_instructions_with);
+}
+
+/// Of the rows of a rung that were flown.
+void countInstructions(std::vector<Row>& rows, const Plan& plan, const Report& report) {
+  std::vector<Row*> flown;
+  std::vector<Method> methods;
+  for (Row& row : rows) {
+    if (row.flight.samples.empty()) continue;
+    flown.push_back(&row);
+    methods.push_back(row.method);
+  }
+  if (flown.empty()) return;
+  const std::vector<double> counts =
+      instructionsATick(report.scene.bodies.size(), methods, plan.count_instructions_with);
+  for (std::size_t k = 0; k < flown.size(); ++k) flown[k]->instructions = counts[k];
 }
 
 /// How much longer this row takes than the one before it.
@@ -114,8 +131,9 @@ std::vector<Row> flyRung(const IntegratorRow& rung, const Plan& plan, const Repo
       flown.push_back(row);
       break;
     }
-    flyRow(row, plan, report, angular_speed);
+    flyRow(row, report, angular_speed);
     flown.push_back(row);
+    if (feedsDrag(rung, report.scene)) break;  // in smaller steps too
     if (row.outcome != Outcome::kFlown) continue;
     if (errorOf(report, row) <= doubtOf(report) || isRounding(flown, report)) break;
   }
@@ -192,17 +210,22 @@ Report make(const Plan& plan, const Progress& progress) {
   for (std::size_t k = 0; k < rungs.size(); ++k) {
     const double part = 0.8 * static_cast<double>(k) / static_cast<double>(rungs.size());
     const auto tell = [&](const Row& row) { progress(nameOf(row), part); };
-    for (Row& row : flyRung(*rungs[k], plan, report, angular_speed, tell))
-      report.rows.push_back(std::move(row));
+    std::vector<Row> rows = flyRung(*rungs[k], plan, report, angular_speed, tell);
+    if (plan.count_instructions_with) {
+      progress("counting instructions of " + rungs[k]->name, part);
+      countInstructions(rows, plan, report);
+    }
+    std::move(rows.begin(), rows.end(), std::back_inserter(report.rows));
   }
   showWorst(report, progress);
   timeRows(report, plan, progress);
   markFront(report);
   if (!report.scene.effects.empty()) {
-    progress("timing the effects", 1);
-    report.effects =
-        effectCosts(report.scene, report.scene.accuracy ? Method() : methodOf(report.scene),
-                    plan.repeats, plan.count_effects_with);
+    progress("timing the effects", 0.99);
+    report.effects = effectCosts(
+        report.scene, report.scene.accuracy ? Method() : methodOf(report.scene), plan.repeats,
+        plan.count_effects_with,
+        [&](const std::string& name) { progress("counting instructions of " + name, 0.99); });
   }
   return report;
 }

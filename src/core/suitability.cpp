@@ -1,4 +1,4 @@
-#include "core/group.hpp"
+#include "core/suitability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,19 @@ void requireEachBodyOnce(const Scene& scene) {
                                   std::to_string(counts[i]) + " methods; it takes one");
 }
 
-/// The methods of a scene; no bodies means all of them.
+/// Of effects that are wrong for bodies without the gyroscopic term.
+void requireGyroscopicTerm(const Scene& scene) {
+  for (const auto& effect : scene.effects) {
+    if (!effect->needsGyroscopicTerm()) continue;
+    const std::vector<Eigen::Index> off = ungyroscopicBodies(scene);
+    if (!off.empty())
+      throw std::invalid_argument("'" + effect->name() + "' needs the gyroscopic term, and body '" +
+                                  scene.bodies[off.front()].name + "' has none");
+  }
+}
+
+}  // namespace
+
 std::vector<MethodOfBodies> methodsOf(const Scene& scene) {
   if (scene.methods.empty()) return {{{}, methodOf(scene)}};
   if (scene.methods.size() == 1) return {{{}, scene.methods[0].method}};
@@ -43,19 +55,6 @@ EffectList effectsOn(const MethodOfBodies& part, const Scene& scene) {
         "an effect couples the bodies of the scene: they all take the same method");
   return *effects;
 }
-
-/// Of effects that are wrong for bodies without the gyroscopic term.
-void requireGyroscopicTerm(const Scene& scene) {
-  for (const auto& effect : scene.effects) {
-    if (!effect->needsGyroscopicTerm()) continue;
-    const std::vector<Eigen::Index> off = ungyroscopicBodies(scene);
-    if (!off.empty())
-      throw std::invalid_argument("'" + effect->name() + "' needs the gyroscopic term, and body '" +
-                                  scene.bodies[off.front()].name + "' has none");
-  }
-}
-
-}  // namespace
 
 std::string toText(const Method& method) {
   if (method.substeps == 1) return method.integrator;
@@ -134,24 +133,27 @@ namespace {
 struct Sum {
   double squares = 0;  // [1/s^2]
   double decays = 0;   // [1/s]
+  bool is_linear = true;
   std::string names;
 
   void add(const Effect& effect, const Stiffness& stiff) {
     if (stiff.oscillation == 0 && stiff.decay == 0) return;
     squares += stiff.oscillation * stiff.oscillation;
     decays += stiff.decay;
+    is_linear = is_linear && (stiff.is_linear || stiff.oscillation == 0);
     names += (names.empty() ? "'" : " and '") + effect.name() + "'";
   }
   double longest(const IntegratorRow& row) const {
-    return std::min(row.max_swing / std::sqrt(squares), row.max_decay / decays);
+    const double max_swing = is_linear ? row.max_swing : row.max_large_swing;
+    return std::min(max_swing / std::sqrt(squares), row.max_decay / decays);
   }
 };
 
-/// The effects that are forces for this method; flows bear any step.
+/// The effects that bound this method's step.
 EffectList forcesFor(const IntegratorRow& row, const EffectList& effects) {
   EffectList forces;
   for (const auto& effect : effects)
-    if (!(row.has_drifts && effect->flowOrder() > 0)) forces.push_back(effect);
+    if (!(row.has_drifts && effect->hasStableFlow())) forces.push_back(effect);
   return forces;
 }
 
@@ -190,20 +192,27 @@ std::string wordsFor(const Sum& sum, const Method& method, double tick_s, bool e
 
 }  // namespace
 
+std::optional<Fault> oneTooStiff(const Method& method, const EffectList& effects,
+                                 const Instant& now, double tick_s) {
+  const IntegratorRow& row = integratorNamed(method.integrator);
+  for (const auto& effect : forcesFor(row, effects)) {
+    const Stiffness stiff = effect->stiffness(now);
+    Sum alone;
+    alone.add(*effect, stiff);
+    if (tick_s > alone.longest(row) * method.substeps)
+      return Fault{stiff.body, wordsFor(alone, method, tick_s, effect->hasStableFlow())};
+  }
+  return std::nullopt;
+}
+
 std::optional<Fault> tooStiff(const Method& method, const EffectList& effects, const Instant& now,
                               double tick_s) {
+  if (auto fault = oneTooStiff(method, effects, now, tick_s)) return fault;
   const IntegratorRow& row = integratorNamed(method.integrator);
   const EffectList forces = forcesFor(row, effects);
   const auto isTooLong = [&](const Sum& sum) {
     return tick_s > sum.longest(row) * method.substeps;
   };
-  for (const auto& effect : forces) {
-    const Stiffness stiff = effect->stiffness(now);
-    Sum alone;
-    alone.add(*effect, stiff);
-    if (isTooLong(alone))
-      return Fault{stiff.body, wordsFor(alone, method, tick_s, effect->flowOrder() > 0)};
-  }
   if (!isTooLong(sumOf(forces, now))) return std::nullopt;
   for (Eigen::Index i = 0; i < now.bodies().count(); ++i) {
     const Sum sum = sumOn(i, forces, now);
@@ -245,12 +254,34 @@ std::string caution(const Method& method, const EffectList& effects) {
   for (const auto& effect : effects) {
     const int order = orderUnder(row, *effect);
     if (order >= row.order || order == 0) continue;
-    return effect->name() +
-           (effect->flowOrder() > 0 ? " is a flow of its own: " : " depends on velocities: ") +
+    const bool is_flow = effect->flowOrder() > 0;
+    return effect->name() + (is_flow ? " is a flow of its own: " : " depends on velocities: ") +
            row.name + " is of order " + std::to_string(order) + " with it, not " +
-           std::to_string(row.order);
+           std::to_string(row.order) +
+           (is_flow ? "" : ", and may gain energy without bound; rk4 and rk8 keep their order");
   }
   return {};
+}
+
+std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
+                                   const Instant& now, double tick_s) {
+  if (!integratorNamed(method.integrator).has_drifts) return std::nullopt;
+  for (const auto& effect : effects) {
+    if (!effect->hasStableFlow() || effect->hasReversibleFlow()) continue;
+    const Stiffness stiff = effect->stiffness(now);
+    const double a_step = stiff.decay * tick_s / method.substeps;
+    if (!(a_step > 1)) continue;
+    // A steady force f gives f h/2 around each drift, of which exp(-x/2) is left in it; right would
+    // be f/c, with x = c h.
+    const double share = 0.5 * a_step / std::sinh(0.5 * a_step);
+    std::ostringstream why;
+    why << "'" << effect->name() << "' slows it down at " << stiff.decay << " 1/s, " << a_step
+        << " times a step: a steady force moves it at " << 100 * share
+        << " % of the right speed then; with " << std::ceil(2 * a_step * method.substeps)
+        << " substeps at 99 %, and rk4, rk8 and adaptive have no such error";
+    return Fault{stiff.body, why.str()};
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,
@@ -277,75 +308,10 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
     if (!why.empty()) throw std::invalid_argument(nameOf(fastest.body) + why);
     cautions.push_back(caution(part.method, effects));
     if (cautions.back().empty()) cautions.pop_back();
+    if (const auto slow = stoppedAtOnce(part.method, effects, now, scene.step_s()))
+      cautions.push_back(nameOf(slow->body) + slow->why);
   }
   return cautions;
-}
-
-std::vector<Group> groupsOf(const Scene& scene) {
-  std::vector<Group> groups;
-  for (const MethodOfBodies& part : methodsOf(scene))
-    groups.emplace_back(
-        part.method,
-        part.bodies.empty() ? ungyroscopicBodies(scene) : ungyroscopicBodies(scene, part.bodies),
-        effectsOn(part, scene), part.bodies);
-  return groups;
-}
-
-Group::Group(const Method& method, std::vector<Eigen::Index> ungyroscopic, EffectList effects,
-             std::vector<Eigen::Index> bodies)
-    : method_(method),
-      indices_(std::move(bodies)),
-      effects_(std::move(effects)),
-      integrator_(
-          integratorNamed(method.integrator).make({std::move(ungyroscopic), method.tolerance})) {
-  for (const auto& effect : effects_) active_.add(effect.get());
-}
-
-void Group::hold(const AppliedWrenches& applied) {
-  if (applied_) active_.remove(applied_);
-  own_applied_ = indices_.empty() ? nullptr : applied.restrictedTo(indices_);
-  applied_ = own_applied_ ? own_applied_.get() : &applied;
-  if (applied_->bodyCount() == 0) applied_ = nullptr;
-  if (applied_) active_.add(applied_);
-  disturb();
-}
-
-/// Free bodies that are at rest stay there until somebody moves them; so nothing is computed.
-bool Group::isAtRest(const Bodies& all) {
-  if (!active_.empty()) return false;
-  if (motion_ != Motion::kUnknown) return motion_ == Motion::kAtRest;
-  const auto rests = [&](Eigen::Index i) {
-    return all.P_WB.row(i).isZero(0) && all.L_WBcm_W.row(i).isZero(0);
-  };
-  bool all_rest = indices_.empty() ? all.P_WB.isZero(0) && all.L_WBcm_W.isZero(0)
-                                   : std::all_of(indices_.begin(), indices_.end(), rests);
-  motion_ = all_rest ? Motion::kAtRest : Motion::kMoves;
-  return all_rest;
-}
-
-void Group::step(Bodies& all, double start_s, double tick_s) {
-  if (isAtRest(all)) return;
-  if (indices_.empty()) return stepInPlace(all, start_s, tick_s);
-  gather(all);
-  stepInPlace(own_, start_s, tick_s);
-  scatter(all);
-}
-
-void Group::stepInPlace(Bodies& bodies, double start_s, double tick_s) {
-  const double step_s = tick_s / method_.substeps;
-  for (int i = 0; i < method_.substeps; ++i)
-    integrator_->step(bodies, active_, start_s + i * step_s, step_s);
-}
-
-void Group::gather(const Bodies& all) {
-  if (own_.count() == 0) own_ = rowsOf(all, indices_);
-  for (std::size_t k = 0; k < indices_.size(); ++k)
-    own_.setState(static_cast<Eigen::Index>(k), all.state(indices_[k]));
-}
-
-void Group::scatter(Bodies& all) const {
-  for (std::size_t k = 0; k < indices_.size(); ++k)
-    all.setState(indices_[k], own_.state(static_cast<Eigen::Index>(k)));
 }
 
 }  // namespace rigid_body_sim
