@@ -72,7 +72,7 @@ void tellBodies(const Scene& scene) {
   if (count > kMost) ROS_INFO("and %zu more bodies", count - kMost);
 }
 
-/// The master takes one registration after the other, half a millisecond each.
+/// The master takes one registration after the other, about a millisecond each.
 void tellTopics(const Scene& scene, const NodeOptions& options) {
   constexpr std::size_t kMany = 5000;
   const PublishEvery& every = options.publish_every;
