@@ -104,7 +104,7 @@ struct Subscriber : ChildProcess {
 
 bool isOfAll(const std::string& topic) { return topic == "tf" || topic == "states"; }
 
-/// One for each topic of all bodies, one for each hundred topics of single ones.
+/// One process for each topic of all bodies, and one for those of single ones of each kind.
 std::vector<std::vector<std::string>> topicsOfSubscribers(const Load& load) {
   std::vector<std::vector<std::string>> all;
   for (const std::string& topic : load.topics) {
@@ -121,8 +121,20 @@ std::vector<std::vector<std::string>> topicsOfSubscribers(const Load& load) {
 
 double messagesATick(const Load& load) {
   double sum = 0;
-  for (const std::string& topic : load.topics) sum += isOfAll(topic) ? 1 : load.bodies;
+  for (const std::string& topic : load.topics)
+    sum += isOfAll(topic) ? 1 : static_cast<double>(load.bodies) / load.every;
   return sum;
+}
+
+std::string nodeParameters(const Load& load) {
+  std::string every;
+  for (const std::string topic : {"twist", "odom", "applied_wrench"}) {
+    const auto& wanted = load.topics;
+    const bool is_wanted = std::find(wanted.begin(), wanted.end(), topic) != wanted.end();
+    const int ticks = is_wanted ? load.every : load.is_lean ? 0 : 1;
+    every += (every.empty() ? "" : ", ") + topic + ": " + std::to_string(ticks);
+  }
+  return "publish_every: {" + every + "}\nbody_inputs: " + (load.is_lean ? "false" : "true") + "\n";
 }
 
 }  // namespace
@@ -130,7 +142,7 @@ double messagesATick(const Load& load) {
 std::string sceneText(const Load& load) {
   std::ostringstream text;
   text << "step_s: " << 1 / kRate << "\n"
-       << load.node_parameters << "effects:\n  gravity: {acceleration: [0, 0, -1.0]}\nbodies:\n";
+       << nodeParameters(load) << "effects: {gravity: {acceleration: [0, 0, -1.0]}}\nbodies:\n";
   for (int i = 0; i < load.bodies; ++i) {
     const double u = (i % 97) / 97.0, v = (i % 89) / 89.0;
     text << "  " << nameOf(i) << ": {mass: " << 1 + u << ", inertia: [" << 0.1 + 0.01 * u << ", "
@@ -141,16 +153,13 @@ std::string sceneText(const Load& load) {
   return text.str();
 }
 
-Result measure(const Load& load, const std::string& node_path, const std::string& self) {
-  const std::string node_name = kSpace + "/sim";
-  ros::param::set(node_name, toXmlRpc(readYaml(sceneText(load), "scene")));
-  Account account;
-  ChildProcess node({node_path, "__ns:=" + kSpace, "__name:=sim"});
-  Result result;
-  if (!node.says("step 0.02 s", 120)) throw std::runtime_error("the node says: " + node.said());
-  result.start_s = node.secondsSinceStart();
+namespace {
 
-  std::vector<std::unique_ptr<Subscriber>> subscribers;
+using Subscribers = std::vector<std::unique_ptr<Subscriber>>;
+
+/// Starts them and waits until each has got something on each of its topics.
+Subscribers subscribersTo(const Load& load, const std::string& self) {
+  Subscribers subscribers;
   for (const std::vector<std::string>& topics : topicsOfSubscribers(load)) {
     std::vector<std::string> command = {self, "--subscribe"};
     command.insert(command.end(), topics.begin(), topics.end());
@@ -159,33 +168,56 @@ Result measure(const Load& load, const std::string& node_path, const std::string
   for (const auto& subscriber : subscribers)
     if (!subscriber->says("ready\n", 120))
       throw std::runtime_error("a subscriber got nothing of some topic: " + subscriber->said());
+  return subscribers;
+}
+
+/// Counters that only grow.
+struct Counters {
+  ros::SteadyTime time = ros::SteadyTime::now();
+  double node_s, subscribers_s = 0, messages = 0, ticks, overruns;
+
+  Counters(const ChildProcess& node, const Subscribers& subscribers, const Account& account)
+      : node_s(processorTime(node.pid())),
+        ticks(account.value("tick")),
+        overruns(account.value("overruns")) {
+    for (const auto& subscriber : subscribers) {
+      messages += subscriber->received();
+      subscribers_s += processorTime(subscriber->pid());
+    }
+  }
+};
+
+}  // namespace
+
+Result measure(const Load& load, const std::string& node_path, const std::string& self) {
+  const std::string node_name = kSpace + "/sim";
+  ros::param::set(node_name, toXmlRpc(readYaml(sceneText(load), "scene")));
+  Account account;
+  ChildProcess node({node_path, "__ns:=" + kSpace, "__name:=sim"});
+  Result result;
+  if (!node.says("step 0.02 s", 120)) throw std::runtime_error("the node says: " + node.said());
+  result.start_s = node.secondsSinceStart();
+  const Subscribers subscribers = subscribersTo(load, self);
 
   account.waitForNext(5);
   account.waitForNext(5);
   account.forgetLatest();
-  const auto all = [&](const auto& of) {
-    double sum = 0;
-    for (const auto& subscriber : subscribers) sum += of(*subscriber);
-    return sum;
-  };
-  const auto received = [](Subscriber& one) { return one.received(); };
-  const auto time = [](const Subscriber& one) { return processorTime(one.pid()); };
-  const double overruns = account.value("overruns"), tick = account.value("tick");
-  const double messages = all(received), others_s = all(time), cpu_s = processorTime(node.pid());
-  const ros::SteadyTime start = ros::SteadyTime::now();
-  while ((ros::SteadyTime::now() - start).toSec() < load.seconds) account.waitForNext(5);
-  const double wall_s = (ros::SteadyTime::now() - start).toSec();
-  result.cpu = (processorTime(node.pid()) - cpu_s) / wall_s;
-  result.subscribers_cpu = (all(time) - others_s) / wall_s;
-  result.messages = (all(received) - messages) / (ros::SteadyTime::now() - start).toSec();
+  const Counters before(node, subscribers, account);
+  while ((ros::SteadyTime::now() - before.time).toSec() < load.seconds) account.waitForNext(5);
+  const Counters after(node, subscribers, account);
+
+  const double wall_s = (after.time - before.time).toSec();
+  result.cpu = (after.node_s - before.node_s) / wall_s;
+  result.subscribers_cpu = (after.subscribers_s - before.subscribers_s) / wall_s;
+  result.messages = (after.messages - before.messages) / wall_s;
   result.expected = kRate * messagesATick(load);
-  result.real_time_factor = (account.value("tick") - tick) / kRate / wall_s;
-  result.overruns = static_cast<long>(account.value("overruns") - overruns);
+  result.real_time_factor = (after.ticks - before.ticks) / kRate / wall_s;
+  result.overruns = static_cast<long>(after.overruns - before.overruns);
   result.latest_ms = account.latest();
   result.resident_kB = residentMemory(node.pid());
 
   node.signal(SIGINT);
-  if (node.exitCode(30) != 0) throw std::runtime_error("the node does not end well");
+  if (node.exitCode(60) != 0) throw std::runtime_error("the node does not end well");
   ros::param::del(kSpace);
   return result;
 }

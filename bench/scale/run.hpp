@@ -8,8 +8,9 @@ namespace rigid_body_sim::scale {
 /// What is simulated, and who listens.
 struct Load {
   int bodies = 1000;
-  std::vector<std::string> topics;  ///< tf, states, and topics of every body, as odom
-  std::string node_parameters;      ///< further lines of YAML
+  std::vector<std::string> topics;  ///< tf, states, and those of every body: twist, odom
+  int every = 1;                    ///< ticks between two messages of a topic of a single body
+  bool is_lean = false;             ///< topics of single bodies that nobody wants are left out
   double seconds = 10;              ///< how long it is measured
 };
 
