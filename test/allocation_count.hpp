@@ -16,9 +16,11 @@
 #if defined(__GLIBC__) && !defined(HAS_OWN_MALLOC)
 #define COUNTS_ALLOCATIONS
 static long allocation_count = 0;
+static thread_local long allocations_here = 0;  // by this thread alone
 extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* malloc(std::size_t size) noexcept {
   ++allocation_count;
+  ++allocations_here;
   return __libc_malloc(size);
 }
 #endif

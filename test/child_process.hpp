@@ -52,6 +52,7 @@ class ChildProcess {
   }
 
   void signal(int number) const { kill(pid_, number); }
+  pid_t pid() const { return pid_; }
 
   double secondsSinceStart() const {
     return std::chrono::duration<double>(Clock::now() - started_).count();
@@ -64,6 +65,9 @@ class ChildProcess {
       if (!readSome(end)) return false;
     return true;
   }
+
+  /// Waits for more that it says; false as says().
+  bool saysMore(double timeout_s = 10) { return readSome(deadline(timeout_s)); }
 
   /// From now on nobody reads what it says.
   void closeOutput() {

@@ -100,6 +100,13 @@ TEST(DefaultYaml, HoldsTheDefaultsOfTheNode) {
   EXPECT_EQ(written.scene_folder, real.scene_folder);
   EXPECT_EQ(written.world_frame, real.world_frame);
   EXPECT_EQ(written.publish_link_frames, real.publish_link_frames);
+  EXPECT_EQ(written.publish_every.tf, real.publish_every.tf);
+  EXPECT_EQ(written.publish_every.states, real.publish_every.states);
+  EXPECT_EQ(written.publish_every.effect_wrenches, real.publish_every.effect_wrenches);
+  EXPECT_EQ(written.publish_every.twist, real.publish_every.twist);
+  EXPECT_EQ(written.publish_every.odom, real.publish_every.odom);
+  EXPECT_EQ(written.publish_every.applied_wrench, real.publish_every.applied_wrench);
+  EXPECT_EQ(written.body_inputs, real.body_inputs);
   EXPECT_EQ(written.paused, real.paused);
   EXPECT_EQ(written.real_time_factor, real.real_time_factor);
   EXPECT_EQ(written.wrench_timeout_s, real.wrench_timeout_s);
@@ -156,7 +163,7 @@ TEST(DefaultYaml, NamesEveryKeyThatIsRead) {
   std::vector<std::string> keys = topLevelKeys();
   EXPECT_GE(keys.size(), 16u);
   for (const std::string where :
-       {"limits: {?}", "{bodies: {ball: {point_mass: 1}}, effects: {?}}",
+       {"limits: {?}", "publish_every: {?}", "{bodies: {ball: {point_mass: 1}}, effects: {?}}",
         "{bodies: {ball: {point_mass: 1}}, accuracy: {position_m: 1, over_s: 1, ?}}",
         "bodies: {ball: {mass: 1, inertia: [1, 1, 1], ?}}",
         "bodies: {ball: {box: {size: [1, 1, 1], density: 1, ?}}}",

@@ -14,12 +14,19 @@ NodeOptions read(const std::string& yaml, bool use_sim_time = true) {
   return options;
 }
 
+std::vector<int> ticksIn(const PublishEvery& every) {
+  return {every.tf,    every.states, every.effect_wrenches,
+          every.twist, every.odom,   every.applied_wrench};
+}
+
 TEST(NodeOptions, HaveTheseDefaults) {
   const NodeOptions options = read("{}");
   EXPECT_EQ(options.scene_folder, "");
   EXPECT_EQ(options.world_frame, "world");
   EXPECT_TRUE(options.publish_clock);
   EXPECT_TRUE(options.publish_link_frames);
+  for (const int ticks : ticksIn(options.publish_every)) EXPECT_EQ(ticks, 1);
+  EXPECT_TRUE(options.body_inputs);
   EXPECT_FALSE(options.paused);
   EXPECT_EQ(options.real_time_factor, 1);
   EXPECT_EQ(options.wrench_timeout_s, 1);
@@ -38,6 +45,9 @@ TEST(NodeOptions, TakeEveryValueThatIsGiven) {
     world_frame: map/odom
     publish_clock: true
     publish_link_frames: false
+    publish_every: {tf: 0, states: 2, effect_wrenches: 3, twist: 4, odom: 5,
+                    applied_wrench: 1000000}
+    body_inputs: false
     paused: true
     real_time_factor: 0.5
     wrench_timeout_s: 0
@@ -48,6 +58,8 @@ TEST(NodeOptions, TakeEveryValueThatIsGiven) {
   EXPECT_EQ(options.scene_folder, "/some/where");
   EXPECT_EQ(options.world_frame, "map/odom");
   EXPECT_FALSE(options.publish_link_frames);
+  EXPECT_EQ(ticksIn(options.publish_every), (std::vector<int>{0, 2, 3, 4, 5, 1'000'000}));
+  EXPECT_FALSE(options.body_inputs);
   EXPECT_TRUE(options.paused);
   EXPECT_EQ(options.real_time_factor, 0.5);
   EXPECT_EQ(options.wrench_timeout_s, 0);
@@ -117,6 +129,16 @@ INSTANTIATE_TEST_SUITE_P(Table, BadNodeOptions, testing::Values(
     Bad{"publish_clock: 1", {"publish_clock", "1", "true or false"}},
     Bad{"publish_clock: 'yes please'", {"publish_clock", "yes please", "true or false"}},
     Bad{"publish_link_frames: [true]", {"publish_link_frames", "[true]", "true or false"}},
+    Bad{"publish_every: 5", {"publish_every", "5", "map"}},
+    Bad{"publish_every: {tf: -1}", {"publish_every.tf", "-1", "0 to 1000000", "[ticks]"}},
+    Bad{"publish_every: {odom: 1000001}", {"publish_every.odom", "1000001", "0 to 1000000", "[ticks]"}},
+    Bad{"publish_every: {states: 0.5}", {"publish_every.states", "0.5", "whole number", "[ticks]"}},
+    Bad{"publish_every: {twist: true}", {"publish_every.twist", "true", "whole number"}},
+    Bad{"publish_every: {effect_wrenches: '2'}", {"publish_every.effect_wrenches", "'2'", "whole number"}},
+    Bad{"publish_every: {applied_wrench: .inf}", {"publish_every.applied_wrench", "inf", "whole number"}},
+    Bad{"publish_every: {odometry: 2}", {"publish_every.odometry", "unknown key", "'odom'"}},
+    Bad{"publish_every: {clock: 2}", {"publish_every.clock", "unknown key", "applied_wrench"}},
+    Bad{"body_inputs: 0", {"body_inputs", "0", "true or false"}},
     Bad{"paused: 'true'", {"paused", "'true'", "true or false"}},
     Bad{"real_time_factor: -1", {"real_time_factor", "-1", "0 to 1000000", "times real time"}},
     Bad{"real_time_factor: .nan", {"real_time_factor", "nan", "a number", "times real time"}},

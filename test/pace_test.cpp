@@ -96,6 +96,17 @@ TEST(Pace, CountsATickAsAnOverrunWhenItIsMoreThanAPeriodLate) {
   EXPECT_EQ(loop.pace.overruns(), 1u);
 }
 
+TEST(Pace, TellsOnceHowLateTheLatestTickWas) {
+  Loop loop(kPeriod);
+  loop.tick(0, 3);
+  loop.tick(0, 2'000);
+  loop.tick(0, 100);
+  EXPECT_EQ(loop.pace.takeLatest(), 2'000);
+  EXPECT_EQ(loop.pace.takeLatest(), 0);
+  loop.tick(kPeriod + kPeriod / 2);  // 100 ns of it were lost before
+  EXPECT_EQ(loop.pace.takeLatest(), kPeriod / 2 + 100);
+}
+
 TEST(Pace, RunsSixtySecondsWithoutDrift) {
   // Work of up to one and a half periods and wake-ups up to 2 ms late, at periods that do and that
   // do not divide a minute.
@@ -145,6 +156,7 @@ TEST(Pace, WithoutAPeriodNeverWaitsAndIsNeverLate) {
   }
   EXPECT_EQ(loop.pace.overruns(), 0u);
   EXPECT_EQ(loop.pace.rebases(), 0u);
+  EXPECT_EQ(loop.pace.takeLatest(), 0);
 }
 
 }  // namespace

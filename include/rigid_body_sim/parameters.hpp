@@ -56,8 +56,8 @@ class Parameters {
   double number(const std::string& key, const Allowed& allowed,
                 std::optional<double> fallback = std::nullopt) const;
   /// A whole number from `min` to `max`.
-  int integer(const std::string& key, int min, int max,
-              std::optional<int> fallback = std::nullopt) const;
+  int integer(const std::string& key, int min, int max, std::optional<int> fallback = std::nullopt,
+              const std::string& unit = "") const;
   bool boolean(const std::string& key, std::optional<bool> fallback = std::nullopt) const;
   std::string text(const std::string& key,
                    std::optional<std::string> fallback = std::nullopt) const;

@@ -198,11 +198,11 @@ double Parameters::number(const std::string& key, const Allowed& allowed,
   return *fallback;
 }
 
-int Parameters::integer(const std::string& key, int min, int max,
-                        std::optional<int> fallback) const {
+int Parameters::integer(const std::string& key, int min, int max, std::optional<int> fallback,
+                        const std::string& unit) const {
   const Value* value = find(key);
-  const std::string expected =
-      "a whole number from " + std::to_string(min) + " to " + std::to_string(max);
+  const std::string expected = "a whole number from " + std::to_string(min) + " to " +
+                               std::to_string(max) + (unit.empty() ? "" : " [" + unit + "]");
   if (!value) {
     if (!fallback) refuseMissing(key, "it must be " + expected);
     return *fallback;

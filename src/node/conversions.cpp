@@ -68,19 +68,60 @@ geometry_msgs::Twist twistOf(const LinkMotion& link) {
   return twist;
 }
 
+namespace {
+
+geometry_msgs::Wrench wrenchOf(const Vector3d& force, const Vector3d& torque) {
+  geometry_msgs::Wrench wrench;
+  wrench.force = toMessage(force);
+  wrench.torque = toMessage(torque);
+  return wrench;
+}
+
+}  // namespace
+
+void write(const LinkMotion& link, const ros::Time& stamp,
+           geometry_msgs::TransformStamped& transform) {
+  transform.header.stamp = stamp;
+  transform.transform.translation = toMessage(link.p_WL);
+  transform.transform.rotation = toMessage(link.q_WL);
+}
+
+void write(const LinkMotion& link, const ros::Time& stamp, nav_msgs::Odometry& odometry) {
+  odometry.header.stamp = stamp;
+  odometry.pose.pose = poseOf(link);
+  odometry.twist.twist = twistOf(link);
+}
+
+void write(const LinkMotion& link, const ros::Time& stamp, geometry_msgs::TwistStamped& twist) {
+  twist.header.stamp = stamp;
+  twist.twist = twistOf(link);
+}
+
+void write(const Wrench& wrench_Bcm_W, const Quaterniond& q_WB, const ros::Time& stamp,
+           geometry_msgs::WrenchStamped& wrench) {
+  wrench.header.stamp = stamp;
+  wrench.wrench =
+      wrenchOf(q_WB.conjugate() * wrench_Bcm_W.f_F, q_WB.conjugate() * wrench_Bcm_W.t_Q_F);
+}
+
+void write(const WrenchesOfEffect& one, EffectWrench& message) {
+  message.effect = one.name;
+  message.wrenches.resize(static_cast<std::size_t>(one.wrenches.f_W.rows()));
+  for (std::size_t i = 0; i < message.wrenches.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    message.wrenches[i] = wrenchOf(one.wrenches.f_W.row(row), one.wrenches.t_Bcm_W.row(row));
+  }
+}
+
 tf2_msgs::TFMessage toTf(const Simulator& simulator, const std::string& world_frame,
                          const ros::Time& stamp) {
   tf2_msgs::TFMessage message;
   const std::vector<SceneBody>& bodies = simulator.scene().bodies;
   message.transforms.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const LinkMotion link = simulator.linkMotion(static_cast<Eigen::Index>(i));
-    geometry_msgs::TransformStamped& transform = message.transforms[i];
-    transform.header.stamp = stamp;
-    transform.header.frame_id = world_frame;
-    transform.child_frame_id = bodies[i].name;
-    transform.transform.translation = toMessage(link.p_WL);
-    transform.transform.rotation = toMessage(link.q_WL);
+    message.transforms[i].header.frame_id = world_frame;
+    message.transforms[i].child_frame_id = bodies[i].name;
+    write(simulator.linkMotion(static_cast<Eigen::Index>(i)), stamp, message.transforms[i]);
   }
   return message;
 }
@@ -128,26 +169,12 @@ BodyStates toStates(const Simulator& simulator, const std::string& world_frame,
 
 nav_msgs::Odometry toOdometry(const Simulator& simulator, Eigen::Index body,
                               const std::string& world_frame, const ros::Time& stamp) {
-  const LinkMotion link = simulator.linkMotion(body);
   nav_msgs::Odometry odometry;
-  odometry.header.stamp = stamp;
   odometry.header.frame_id = world_frame;
   odometry.child_frame_id = simulator.scene().bodies[body].name;
-  odometry.pose.pose = poseOf(link);
-  odometry.twist.twist = twistOf(link);
+  write(simulator.linkMotion(body), stamp, odometry);
   return odometry;
 }
-
-namespace {
-
-geometry_msgs::Wrench wrenchOf(const Vector3d& force, const Vector3d& torque) {
-  geometry_msgs::Wrench wrench;
-  wrench.force = toMessage(force);
-  wrench.torque = toMessage(torque);
-  return wrench;
-}
-
-}  // namespace
 
 EffectWrenches toEffectWrenches(const Simulator& simulator, const std::string& world_frame,
                                 const ros::Time& stamp) {
@@ -157,31 +184,24 @@ EffectWrenches toEffectWrenches(const Simulator& simulator, const std::string& w
   for (const SceneBody& body : simulator.scene().bodies) message.names.push_back(body.name);
   for (const rigid_body_sim::WrenchesOfEffect& one : simulator.effectWrenches()) {
     message.effects.emplace_back();
-    message.effects.back().effect = one.name;
-    for (Eigen::Index i = 0; i < simulator.bodies().count(); ++i)
-      message.effects.back().wrenches.push_back(
-          wrenchOf(one.wrenches.f_W.row(i), one.wrenches.t_Bcm_W.row(i)));
+    write(one, message.effects.back());
   }
   return message;
 }
 
 geometry_msgs::WrenchStamped toAppliedWrench(const Simulator& simulator, Eigen::Index body,
                                              const ros::Time& stamp) {
-  const Wrench wrench = simulator.wrenchOn(body);
-  const Quaterniond q_BW = simulator.state(body).q_WB.conjugate();
   geometry_msgs::WrenchStamped message;
-  message.header.stamp = stamp;
   message.header.frame_id = comFrameName(simulator.scene().bodies[body].name);
-  message.wrench = wrenchOf(q_BW * wrench.f_F, q_BW * wrench.t_Q_F);
+  write(simulator.wrenchOn(body), simulator.state(body).q_WB, stamp, message);
   return message;
 }
 
 geometry_msgs::TwistStamped toTwist(const Simulator& simulator, Eigen::Index body,
                                     const ros::Time& stamp) {
   geometry_msgs::TwistStamped twist;
-  twist.header.stamp = stamp;
   twist.header.frame_id = simulator.scene().bodies[body].name;
-  twist.twist = twistOf(simulator.linkMotion(body));
+  write(simulator.linkMotion(body), stamp, twist);
   return twist;
 }
 

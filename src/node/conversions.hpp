@@ -27,6 +27,15 @@ geometry_msgs::Quaternion toMessage(const Quaterniond& q);
 geometry_msgs::Pose poseOf(const LinkMotion& link);
 geometry_msgs::Twist twistOf(const LinkMotion& link);
 
+/// The numbers of a message that has its names already: to use it again allocates nothing.
+void write(const LinkMotion& link, const ros::Time& stamp,
+           geometry_msgs::TransformStamped& transform);
+void write(const LinkMotion& link, const ros::Time& stamp, nav_msgs::Odometry& odometry);
+void write(const LinkMotion& link, const ros::Time& stamp, geometry_msgs::TwistStamped& twist);
+void write(const Wrench& wrench_Bcm_W, const Quaterniond& q_WB, const ros::Time& stamp,
+           geometry_msgs::WrenchStamped& wrench);
+void write(const WrenchesOfEffect& one, EffectWrench& message);
+
 /// One message with the transform world -> root link of every body, stamped with the tick's time.
 tf2_msgs::TFMessage toTf(const Simulator& simulator, const std::string& world_frame,
                          const ros::Time& stamp);

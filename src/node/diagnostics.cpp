@@ -5,11 +5,12 @@ namespace rigid_body_sim {
 using diagnostic_msgs::DiagnosticStatus;
 
 Diagnostics::Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs,
-                         const Pace& pace, double real_time_factor)
+                         Pace& pace, double real_time_factor)
     : simulator_(simulator),
       inputs_(inputs),
       pace_(pace),
       real_time_factor_(real_time_factor),
+      elisions_(elisions(simulator.scene())),
       updater_(nh) {
   updater_.setHardwareID("none");
   updater_.add("simulation", this, &Diagnostics::report);
@@ -33,8 +34,7 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
 void Diagnostics::reportEffects(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const EffectCount& count : simulator_.effectCounts())
     status.add("evaluations of " + count.name, count.evaluations);
-  for (const std::string& elision : elisions(simulator_.scene()))
-    status.add("not computed", elision);
+  for (const std::string& elision : elisions_) status.add("not computed", elision);
   if (!simulator_.scene().energy_audit) return;
   const EnergyBalance energy = simulator_.energy();
   status.addf("energy", "%.9g J kinetic, %.9g J potential", energy.kinetic_J, energy.potential_J);
@@ -55,6 +55,7 @@ void Diagnostics::reportPace(diagnostic_updater::DiagnosticStatusWrapper& status
   status.addf("real-time factor", "%.4g", wall_s > 0 ? simulated_s / wall_s : 0.0);
   status.add("real-time factor wanted", real_time_factor_);
   status.add("overruns", pace_.overruns());
+  status.addf("latest tick [ms]", "%.3f", 1e-6 * static_cast<double>(pace_.takeLatest()));
   status.add("times that lost time was given up", pace_.rebases());
   if (pace_.rebases() > last_rebases_)
     status.mergeSummary(DiagnosticStatus::WARN, "slower than the real-time factor");

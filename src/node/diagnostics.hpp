@@ -12,8 +12,8 @@ namespace rigid_body_sim {
 /// and keeps its accuracy, what became of the inputs, and which bodies are frozen.
 class Diagnostics {
  public:
-  Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs,
-              const Pace& pace, double real_time_factor);
+  Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs, Pace& pace,
+              double real_time_factor);
 
  private:
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -26,8 +26,9 @@ class Diagnostics {
 
   const Simulator& simulator_;
   const Inputs& inputs_;
-  const Pace& pace_;
+  Pace& pace_;
   double real_time_factor_;
+  std::vector<std::string> elisions_;  // looks at the tensors of all bodies: once
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
   ros::SteadyTime last_time_ = ros::SteadyTime::now();

@@ -9,6 +9,10 @@ namespace {
 // at 10 kHz.
 constexpr std::uint32_t kQueueSize = 1000;
 
+// Whether a message has entries.
+constexpr bool kList = true;
+constexpr bool kSingle = false;
+
 constexpr double kQuiet_s = 1;  // between two warnings of one kind
 
 bool isTimeAgain(ros::SteadyTime& last) {
@@ -26,25 +30,32 @@ ros::Subscriber subscribe(
                                ros::TransportHints().tcpNoDelay());
 }
 
+template <class Message>
+std::string sourceOf(const std::string& topic, const ros::MessageEvent<const Message>& event) {
+  return topic + " from " + event.getPublisherName();
+}
+
 }  // namespace
 
 Inputs::Inputs(ros::NodeHandle& nh, Simulator& simulator, const SimTime& time,
                const NodeOptions& options)
     : simulator_(simulator), rules_(simulator, time, options) {
-  for (std::size_t i = 0; i < simulator.scene().bodies.size(); ++i)
+  for (std::size_t i = 0; options.body_inputs && i < simulator.scene().bodies.size(); ++i)
     subscribeBody(nh, static_cast<Eigen::Index>(i));
 
   subscribers_.push_back(subscribe<BodyWrenches>(nh, names::kWrenches, [this](const auto& event) {
     const auto message = event.getMessage();
+    const std::string source = sourceOf(names::kWrenches, event);
     ++sequence_;
     for (std::size_t i = 0; i < message->wrenches.size(); ++i)
-      take(event, names::kWrenches, i, [&] { return rules_.scheduled(message->wrenches[i]); });
+      take(source, i, kList, [&] { return rules_.scheduled(message->wrenches[i]); });
   }));
   subscribers_.push_back(subscribe<BodyImpulses>(nh, names::kImpulses, [this](const auto& event) {
     const auto message = event.getMessage();
+    const std::string source = sourceOf(names::kImpulses, event);
     ++sequence_;
     for (std::size_t i = 0; i < message->impulses.size(); ++i)
-      take(event, names::kImpulses, i, [&] { return rules_.impulse(message->impulses[i]); });
+      take(source, i, kList, [&] { return rules_.impulse(message->impulses[i]); });
   }));
 }
 
@@ -55,26 +66,25 @@ void Inputs::subscribeBody(ros::NodeHandle& nh, Eigen::Index body) {
   subscribers_.push_back(subscribe<geometry_msgs::WrenchStamped>(
       nh, wrench_topic, [this, body, wrench_topic](const auto& event) {
         ++sequence_;
-        take(event, wrench_topic, 0, [&] { return rules_.held(body, *event.getMessage()); });
+        take(sourceOf(wrench_topic, event), 0, kSingle,
+             [&] { return rules_.held(body, *event.getMessage()); });
       }));
   subscribers_.push_back(
       subscribe<ImpulseStamped>(nh, impulse_topic, [this, body, impulse_topic](const auto& event) {
         ++sequence_;
-        take(event, impulse_topic, 0, [&] { return rules_.impulse(body, *event.getMessage()); });
+        take(sourceOf(impulse_topic, event), 0, kSingle,
+             [&] { return rules_.impulse(body, *event.getMessage()); });
       }));
 }
 
-template <class Message, class Convert>
-void Inputs::take(const ros::MessageEvent<const Message>& event, const std::string& topic,
-                  std::uint64_t entry, Convert convert) {
-  const std::string source = topic + " from " + event.getPublisherName();
+template <class Convert>
+void Inputs::take(const std::string& source, std::uint64_t entry, bool is_list, Convert convert) {
   try {
     auto input = convert();
     input.origin = {source, sequence_, entry};
     simulator_.apply(std::move(input));
     ++counts_.accepted;
   } catch (const RefusedInput& refused) {
-    const bool is_list = topic == names::kWrenches || topic == names::kImpulses;
     refuse(refused, (is_list ? "entry " + std::to_string(entry) + " of " : "") + source);
   }
 }

@@ -39,9 +39,8 @@ class Inputs {
 
  private:
   void subscribeBody(ros::NodeHandle& nh, Eigen::Index body);
-  template <class Message, class Convert>
-  void take(const ros::MessageEvent<const Message>& event, const std::string& topic,
-            std::uint64_t entry, Convert convert);
+  template <class Convert>
+  void take(const std::string& source, std::uint64_t entry, bool is_list, Convert convert);
   void refuse(const RefusedInput& refused, const std::string& source);
 
   Simulator& simulator_;

@@ -1,6 +1,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -62,6 +63,30 @@ std::int64_t wallTime() {
   return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
 }
 
+/// Not thousands of lines; who made so many knows them.
+void tellBodies(const Scene& scene) {
+  constexpr std::size_t kMost = 20;
+  const std::size_t count = scene.bodies.size();
+  for (std::size_t i = 0; i < std::min(count, kMost); ++i)
+    ROS_INFO("%s", summary(scene.bodies[i]).c_str());
+  if (count > kMost) ROS_INFO("and %zu more bodies", count - kMost);
+}
+
+/// The master takes one registration after the other, about a millisecond each.
+void tellTopics(const Scene& scene, const NodeOptions& options) {
+  constexpr std::size_t kMany = 5000;
+  const PublishEvery& every = options.publish_every;
+  std::size_t topics = options.body_inputs ? 2 : 0;
+  for (const int ticks : {every.twist, every.odom, every.applied_wrench}) topics += ticks > 0;
+  topics *= scene.bodies.size();
+  if (topics > kMany)
+    ROS_WARN(
+        "%zu topics of single bodies have to be registered, which takes a while; `body_inputs: "
+        "false` and 0 in `publish_every` leave them out: states, wrenches and impulses are of all "
+        "bodies",
+        topics);
+}
+
 void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue) {
   const Parameters parameters(privateParameters(private_nh), "");
   const bool use_sim_time = ros::param::param("/use_sim_time", false);
@@ -70,7 +95,8 @@ void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQue
                                        [&](const auto& name) { return urdfParameter(nh, name); }});
   parameters.refuseUnknown();
   requireGoodNames(scene, options.world_frame);
-  for (const SceneBody& body : scene.bodies) ROS_INFO("%s", summary(body).c_str());
+  tellBodies(scene);
+  tellTopics(scene, options);
   if (!options.publish_clock && options.real_time_factor != 1)
     ROS_WARN(
         "real_time_factor is not 1 and there is no /clock: the stamps of other nodes and this "

@@ -20,6 +20,20 @@ Limits readLimits(const Parameters& parameters) {
   return limits;
 }
 
+PublishEvery readPublishEvery(const Parameters& parameters) {
+  const Parameters block = parameters.child("publish_every");
+  PublishEvery every;
+  for (const auto& [key, ticks] : {std::pair<const char*, int*>{"tf", &every.tf},
+                                   {"states", &every.states},
+                                   {"effect_wrenches", &every.effect_wrenches},
+                                   {"twist", &every.twist},
+                                   {"odom", &every.odom},
+                                   {"applied_wrench", &every.applied_wrench}})
+    *ticks = block.integer(key, 0, 1'000'000, *ticks, "ticks");
+  block.refuseUnknown();
+  return every;
+}
+
 std::string folderOf(const std::string& path) {
   const auto slash = path.rfind('/');
   if (slash == 0) return "/";
@@ -65,6 +79,8 @@ NodeOptions readNodeOptions(const Parameters& parameters, bool use_sim_time,
                       "false while /use_sim_time is true: the stamps would follow no clock");
   }
   options.publish_link_frames = parameters.boolean("publish_link_frames", true);
+  options.publish_every = readPublishEvery(parameters);
+  options.body_inputs = parameters.boolean("body_inputs", true);
   options.paused = parameters.boolean("paused", false);
   options.real_time_factor = readRealTimeFactor(parameters);
   options.wrench_timeout_s = parameters.number("wrench_timeout_s", {0, 1e9, "s"}, 1);

@@ -17,12 +17,24 @@ struct Limits {
   double angular_speed;    ///< change of angular speed by one input in one tick [rad/s]
 };
 
+/// Ticks from one message of a topic to the next; 0: there is no such topic.
+struct PublishEvery {
+  int tf = 1;
+  int states = 1;
+  int effect_wrenches = 1;
+  int twist = 1;  ///< this and the next ones: of each body
+  int odom = 1;
+  int applied_wrench = 1;
+};
+
 /// The node's own parameters; config/default.yaml documents each.
 struct NodeOptions {
   std::string scene_folder;  ///< where relative URDF paths start; empty: the working directory
   std::string world_frame;
   bool publish_clock;
   bool publish_link_frames;
+  PublishEvery publish_every;
+  bool body_inputs;  ///< whether each body has topics of its own for inputs
   bool paused;
   double real_time_factor;     ///< 0: as fast as possible
   double wrench_timeout_s;     ///< 0: never

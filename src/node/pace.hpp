@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace rigid_body_sim {
 
@@ -24,6 +26,7 @@ class Pace {
 
   /// A tick was published.
   void tickDone(std::int64_t now_ns) {
+    latest_ns_ = std::max(latest_ns_, now_ns - due_ns_);
     due_ns_ += period_ns_;
     if (now_ns > due_ns_) ++overruns_;
     if (now_ns - due_ns_ <= kCatchUpTicks * period_ns_) return;
@@ -38,11 +41,16 @@ class Pace {
     return period_ns_ == 0 ? 0 : rebases_;
   }  ///< times that lost time was given up
 
+  /// How much after it was due the latest tick was published, of those since the last call; 0 if
+  /// none waits [ns].
+  std::int64_t takeLatest() { return period_ns_ == 0 ? 0 : std::exchange(latest_ns_, 0); }
+
  private:
   std::int64_t period_ns_;
   std::int64_t due_ns_ = 0;
   std::uint64_t overruns_ = 0;
   std::uint64_t rebases_ = 0;
+  std::int64_t latest_ns_ = 0;
 };
 
 }  // namespace rigid_body_sim

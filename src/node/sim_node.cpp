@@ -124,6 +124,7 @@ void SimNode::waitUntilDue() {
 void SimNode::setPaused(bool is_paused) {
   outputs_.serveNewSubscribers();
   publishTick();
+  if (is_paused) outputs_.publishRest();
   paused_ = is_paused;
   outputs_.setPaused(is_paused);
   if (is_paused && !options_.publish_clock)
@@ -149,6 +150,7 @@ bool SimNode::step(Step::Request& request, Step::Response& response) {
       runTick();
       publishTick();
     }
+    outputs_.publishRest();
     response.success = true;
     response.states = toStates(simulator_, options_.world_frame, time_.at(simulator_.tick()));
   }
@@ -162,6 +164,7 @@ bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& re
   frozen_told_ = 0;
   is_published_ = false;
   publishTick();
+  outputs_.publishRest();
   response.success = true;
   response.message = "initial state; time goes on";
   return true;
