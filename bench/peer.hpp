@@ -10,18 +10,27 @@
 
 namespace rigid_body_sim::bench {
 
-/// An engine with a scene in it.
-struct Peer {
-  std::function<void()> reset;                          ///< back to the start
-  std::function<void(int steps)> step;                  ///< advances all bodies
-  std::function<Quaterniond(Eigen::Index)> attitudeOf;  ///< q_WB of a body
+/// How a body of an engine moves.
+struct Motion {
+  Vector3d p_WBcm;  ///< [m]
+  Quaterniond q_WB;
+  Vector3d v_WBcm;  ///< [m/s]
+  Vector3d w_WB;    ///< [rad/s]
 };
 
-/// Of anything with these three functions.
+/// An engine with a scene in it.
+struct Peer {
+  std::function<void()> reset;                   ///< back to the start
+  std::function<void(int steps)> step;           ///< advances all bodies
+  std::function<Motion(Eigen::Index)> motionOf;  ///< of a body
+  std::function<bool()> has_started_anew = {};   ///< by itself; an engine that never does has none
+};
+
+/// Of anything with the first three functions.
 template <class Engine>
 Peer peerOf(const std::shared_ptr<Engine>& engine) {
   return {[engine] { engine->reset(); }, [engine](int steps) { engine->step(steps); },
-          [engine](Eigen::Index i) { return engine->attitudeOf(i); }};
+          [engine](Eigen::Index i) { return engine->motionOf(i); }};
 }
 
 /// A way of stepping that an engine offers.
@@ -34,6 +43,7 @@ struct PeerRow {
   std::string limit = {};              ///< why no more
   bool is_gyroscopic_optional = true;  ///< false: the engine cannot leave that term out
   bool needs_wrenches = false;         ///< without them it is like another row
+  std::string hard_cases = {};  ///< the name to fly the gallery by; empty: another row does as well
 };
 
 /// All ways of the one engine that a program is linked with: each engine's file defines it.

@@ -42,8 +42,14 @@ std::vector<std::shared_ptr<const Effect>> effectsOf(const Scene& scene, bool ha
     std::iota(all.begin(), all.end(), 0);
     effects.push_back(uniformGravity(scene.g_W, std::move(all)));
   }
-  if (has_pushes) effects.push_back(std::make_shared<Pushes>(scene.wrenches));
+  if (has_pushes) effects.push_back(std::make_shared<Pushes>(*scene.wrenches));
   return effects;
+}
+
+Motion motionOf(const Bodies& bodies, Eigen::Index i) {
+  const BodyState state = bodies.state(i);
+  return {state.p_WBcm, state.q_WB, velocity(state, bodies.mass(i)),
+          angularVelocity(state, bodies.moments(i))};
 }
 
 /// An integrator, its bodies, and what acts on them.
@@ -77,7 +83,7 @@ Peer makeBare(const std::string& name, const Scene& scene) {
               it->time_s += it->step_s;
             }
           },
-          [it](Eigen::Index i) { return it->bodies.state(i).q_WB; }};
+          [it](Eigen::Index i) { return motionOf(it->bodies, i); }};
 }
 
 Simulator makeSimulator(const std::string& name, const Scene& scene, bool has_pushes) {
@@ -104,15 +110,14 @@ Simulator makeSimulator(const std::string& name, const Scene& scene, bool has_pu
 
 Peer makeSimulated(const std::string& name, const Scene& scene) {
   const auto it = std::make_shared<Simulator>(makeSimulator(name, scene, scene.load.has_wrenches));
-  return {[it] { it->reset(); },
-          [it](int steps) { it->advance(steps); },
-          [it](Eigen::Index i) { return it->state(i).q_WB; }};
+  return {[it] { it->reset(); }, [it](int steps) { it->advance(steps); },
+          [it](Eigen::Index i) { return motionOf(it->bodies(), i); }};
 }
 
 /// Every wrench as an input of its own, for one tick, as messages bring them.
 Peer makeWithInputs(const std::string& name, const Scene& scene) {
   const auto it = std::make_shared<Simulator>(makeSimulator(name, scene, false));
-  const auto wrenches = std::make_shared<Wrenches>(scene.wrenches);
+  const std::shared_ptr<const Wrenches> wrenches = scene.wrenches;
   return {[it] { it->reset(); },
           [it, wrenches](int steps) {
             WrenchInput input;
@@ -126,7 +131,7 @@ Peer makeWithInputs(const std::string& name, const Scene& scene) {
               it->step();
             }
           },
-          [it](Eigen::Index i) { return it->state(i).q_WB; }};
+          [it](Eigen::Index i) { return motionOf(it->bodies(), i); }};
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ Scene makeScene(const Load& load, Eigen::Index count, double step_s) {
   }
   if (load.has_wrenches) {
     // Small enough to leave the motion what it is: a thousand steps add a tenth of the momentum.
-    scene.wrenches.f_W = Column3::Random(count, 3) * 0.1;
-    scene.wrenches.t_Bcm_W = Column3::Random(count, 3) * 0.05;
+    scene.wrenches->f_W = Column3::Random(count, 3) * 0.1;
+    scene.wrenches->t_Bcm_W = Column3::Random(count, 3) * 0.05;
   }
   return scene;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "rigid_body_sim/effect.hpp"
 #include "rigid_body_sim/integrator.hpp"
 
@@ -23,8 +25,16 @@ struct Scene {
   double step_s = 0.02;  ///< [s]
   Vector3d g_W = Vector3d::Zero();
   Bodies bodies;
-  Wrenches wrenches;  ///< for a load that has them
+  /// For a load that has them; all copies of a scene share them, so that who flies it may change
+  /// them from step to step.
+  std::shared_ptr<Wrenches> wrenches = std::make_shared<Wrenches>();
+  /// From the point whose motion an engine keeps, where it keeps another than that of the centre of
+  /// mass, in B; no row: none.
+  Column3 p_OBcm_B;
 
+  Vector3d offset(Eigen::Index i) const {
+    return p_OBcm_B.rows() > 0 ? Vector3d(p_OBcm_B.row(i)) : Vector3d::Zero();
+  }
   Vector3d v_WBcm(Eigen::Index i) const { return velocity(bodies.state(i), bodies.mass(i)); }
   Vector3d w_WB(Eigen::Index i) const {
     return angularVelocity(bodies.state(i), bodies.moments(i));

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by benchmark, demo and test: where things are, and the build. Nothing is written outside the checkout.
+# Sourced by the other scripts: where things are, and the build. Nothing is written outside the checkout.
 set -euo pipefail
 
 checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -21,6 +21,24 @@ load() {  # a setup file of catkin's; those read unset variables
   # shellcheck disable=SC1090
   source "$1"
   set -u
+}
+
+# Other engines, to compare with.
+install_engines() {
+  if grep -q '^PRETTY_NAME="Debian GNU/Linux 12' /etc/os-release; then
+    "$checkout/scripts/install_dependencies" <(cat <<'END'
+libbenchmark-dev    Google Benchmark
+libode-dev          Open Dynamics Engine
+libbullet-dev       Bullet, its builds of 32 and 64 bits
+libmujoco-dev       MuJoCo
+libdart-dev         DART
+libsimbody-dev      Simbody
+pkg-config          their versions
+END
+    )
+  else
+    echo "Engines are installed by name on Debian 12 only: here those that are there are compared."
+  fi
 }
 
 # build TARGET... : installs what is missing, then configures and builds, optimised.

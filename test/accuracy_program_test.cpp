@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "child_process.hpp"
 #include "generic.hpp"
+#include "tools/child_process.hpp"
 
 namespace rigid_body_sim {
 namespace {

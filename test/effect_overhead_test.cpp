@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "child_process.hpp"
 #include "generic.hpp"
+#include "tools/child_process.hpp"
 
 namespace rigid_body_sim {
 namespace {

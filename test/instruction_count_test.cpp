@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "child_process.hpp"
 #include "generic.hpp"
+#include "tools/child_process.hpp"
 
 namespace rigid_body_sim {
 namespace {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <thread>
 
-#include "child_process.hpp"
 #include "generic.hpp"
 #include "ros_fixture.hpp"
+#include "tools/child_process.hpp"
 #include "xml_rpc_tree.hpp"
 
 namespace rigid_body_sim {

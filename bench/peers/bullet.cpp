@@ -13,6 +13,8 @@ btVector3 vectorOf(const Vector3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
+Vector3d vectorOf(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
 /// Bodies of a scene, and how they start.
 class BulletBodies {
  public:
@@ -46,13 +48,16 @@ class BulletBodies {
 
   void push(std::size_t k) {
     const auto i = static_cast<Eigen::Index>(k);
-    bodies_[k]->applyCentralForce(vectorOf(scene_.wrenches.f_W.row(i)));
-    bodies_[k]->applyTorque(vectorOf(scene_.wrenches.t_Bcm_W.row(i)));
+    bodies_[k]->applyCentralForce(vectorOf(scene_.wrenches->f_W.row(i)));
+    bodies_[k]->applyTorque(vectorOf(scene_.wrenches->t_Bcm_W.row(i)));
   }
 
-  Quaterniond attitudeOf(Eigen::Index i) const {
-    const btQuaternion q = bodies_[static_cast<std::size_t>(i)]->getOrientation();
-    return Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
+  Motion motionOf(Eigen::Index i) const {
+    const btRigidBody& body = *bodies_[static_cast<std::size_t>(i)];
+    const btQuaternion q = body.getOrientation();
+    return {vectorOf(body.getCenterOfMassPosition()),
+            Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized(),
+            vectorOf(body.getLinearVelocity()), vectorOf(body.getAngularVelocity())};
   }
 
   const Scene& scene() const { return scene_; }
@@ -72,7 +77,7 @@ class PerBody {
     for (const auto& body : bodies_.all()) body->setGravity(vectorOf(scene.g_W));
   }
   void reset() { bodies_.reset(); }
-  Quaterniond attitudeOf(Eigen::Index i) const { return bodies_.attitudeOf(i); }
+  Motion motionOf(Eigen::Index i) const { return bodies_.motionOf(i); }
 
   void step(int steps) {
     const Scene& scene = bodies_.scene();
@@ -136,7 +141,7 @@ class InWorld {
   InWorld& operator=(const InWorld&) = delete;
 
   void reset() { bodies_.reset(); }
-  Quaterniond attitudeOf(Eigen::Index i) const { return bodies_.attitudeOf(i); }
+  Motion motionOf(Eigen::Index i) const { return bodies_.motionOf(i); }
 
   void step(int steps) {
     const auto step_s = static_cast<btScalar>(bodies_.scene().step_s);
@@ -164,6 +169,7 @@ std::vector<PeerRow> peerRows() {
   PeerRow stock = {engine, "world", "`stepSimulation` as it is", [](const Scene& scene) {
                      return peerOf(std::make_shared<InWorld>(scene, Collisions::kOn));
                    }};
+  if (sizeof(btScalar) == 8) stock.hard_cases = "Bullet";
   return {{engine, "per body", "the integration calls of each body, without a world",
            [](const Scene& scene) { return peerOf(std::make_shared<PerBody>(scene)); }},
           {engine, "world, bare", "`stepSimulation` without its stages of collision",

@@ -28,10 +28,11 @@ class Dart {
       const BodyState state = scene_.bodies.state(i);
       Isometry3d X_WB = Isometry3d::Identity();
       X_WB.linear() = state.q_WB.toRotationMatrix();
-      X_WB.translation() = state.p_WBcm;
+      X_WB.translation() = state.p_WBcm - state.q_WB * scene_.offset(i);
       auto* joint = static_cast<dart::dynamics::FreeJoint*>(bodies_[k]->getParentJoint());
       joint->setPositions(dart::dynamics::FreeJoint::convertToPositions(X_WB));
-      joint->setLinearVelocity(scene_.v_WBcm(i));
+      joint->setLinearVelocity(scene_.v_WBcm(i) -
+                               scene_.w_WB(i).cross(state.q_WB * scene_.offset(i)));
       joint->setAngularVelocity(scene_.w_WB(i));
     }
   }
@@ -46,8 +47,10 @@ class Dart {
     }
   }
 
-  Quaterniond attitudeOf(Eigen::Index i) const {
-    return Quaterniond(bodies_[static_cast<std::size_t>(i)]->getWorldTransform().linear());
+  Motion motionOf(Eigen::Index i) const {
+    const dart::dynamics::BodyNode& body = *bodies_[static_cast<std::size_t>(i)];
+    return {body.getCOM(), Quaterniond(body.getWorldTransform().linear()),
+            body.getCOMLinearVelocity(), body.getAngularVelocity()};
   }
 
  private:
@@ -58,6 +61,7 @@ class Dart {
     const Vector3d I = scene_.bodies.moments(i);
     inertia.setMass(scene_.bodies.mass(i));
     inertia.setMoment(I.x(), I.y(), I.z(), 0, 0, 0);
+    inertia.setLocalCOM(scene_.offset(i));
     body->setInertia(inertia);
     skeleton->setTimeStep(scene_.step_s);
     skeleton->setGravity(scene_.g_W);
@@ -79,8 +83,8 @@ class Dart {
   void push() {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      bodies_[k]->addExtForce(scene_.wrenches.f_W.row(i));
-      bodies_[k]->addExtTorque(scene_.wrenches.t_Bcm_W.row(i));
+      bodies_[k]->addExtForce(scene_.wrenches->f_W.row(i), scene_.offset(i));
+      bodies_[k]->addExtTorque(scene_.wrenches->t_Bcm_W.row(i));
     }
   }
 
@@ -104,8 +108,10 @@ PeerRow row(const std::string& name, const std::string& about, Way way) {
 }  // namespace
 
 std::vector<PeerRow> peerRows() {
+  PeerRow world = row("world", "`World::step`, nothing to collide with", Way::kWorld);
+  world.hard_cases = "DART";
   return {row("per skeleton", "the calls of each skeleton, without a world", Way::kPerSkeleton),
-          row("world", "`World::step`, nothing to collide with", Way::kWorld)};
+          world};
 }
 
 }  // namespace rigid_body_sim::bench

@@ -22,8 +22,9 @@ std::string modelOf(const Scene& scene) {
       << "<flag constraint='disable' contact='disable' passive='disable' actuation='disable' "
          "sensor='disable'/></option><worldbody>";
   for (Eigen::Index i = 0; i < scene.bodies.count(); ++i)
-    xml << "<body><freejoint/><inertial pos='0 0 0' mass='" << scene.bodies.mass(i)
-        << "' diaginertia='" << scene.bodies.moments(i).transpose() << "'/></body>";
+    xml << "<body><freejoint/><inertial pos='" << scene.offset(i).transpose() << "' mass='"
+        << scene.bodies.mass(i) << "' diaginertia='" << scene.bodies.moments(i).transpose()
+        << "'/></body>";
   xml << "</worldbody></mujoco>";
   return xml.str();
 }
@@ -62,9 +63,10 @@ class Mujoco {
     mj_resetData(model_, data_);
     for (Eigen::Index i = 0; i < scene_.bodies.count(); ++i) {
       const BodyState state = scene_.bodies.state(i);
-      Eigen::Map<Vector3d>(data_->qpos + 7 * i) = state.p_WBcm;
+      const Vector3d r_W = state.q_WB * scene_.offset(i);
+      Eigen::Map<Vector3d>(data_->qpos + 7 * i) = state.p_WBcm - r_W;
       Eigen::Map<Eigen::Vector4d>(data_->qpos + 7 * i + 3) << state.q_WB.w(), state.q_WB.vec();
-      Eigen::Map<Vector3d>(data_->qvel + 6 * i) = scene_.v_WBcm(i);
+      Eigen::Map<Vector3d>(data_->qvel + 6 * i) = scene_.v_WBcm(i) - scene_.w_WB(i).cross(r_W);
       Eigen::Map<Vector3d>(data_->qvel + 6 * i + 3) = scene_.w_WB_B(i);
     }
   }
@@ -79,12 +81,26 @@ class Mujoco {
     }
   }
 
+  Motion motionOf(Eigen::Index i) const {
+    const Quaterniond q_WB = attitudeOf(i);
+    const Vector3d w_WB = q_WB * Vector3d(data_->qvel + 6 * i + 3), r_W = q_WB * scene_.offset(i);
+    return {Vector3d(data_->qpos + 7 * i) + r_W, q_WB,
+            Vector3d(data_->qvel + 6 * i) + w_WB.cross(r_W), w_WB};
+  }
+
+  /// What it does with a warning where a state is not finite, or larger than 1e10.
+  bool hasStartedAnew() const {
+    return data_->warning[mjWARN_BADQPOS].number + data_->warning[mjWARN_BADQVEL].number +
+               data_->warning[mjWARN_BADQACC].number >
+           0;
+  }
+
+ private:
   Quaterniond attitudeOf(Eigen::Index i) const {
     const mjtNum* q = data_->qpos + 7 * i + 3;
     return {q[0], q[1], q[2], q[3]};
   }
 
- private:
   /// What mj_step does for bodies that nothing joins or touches, and nothing else.
   void stages() {
     mj_kinematics(model_, data_);
@@ -102,9 +118,9 @@ class Mujoco {
   /// there are 256, in proportion to their number. A free joint's torque is in the body's axes.
   void push() {
     for (Eigen::Index i = 0; i < scene_.bodies.count(); ++i) {
-      Eigen::Map<Vector3d>(data_->qfrc_applied + 6 * i) = scene_.wrenches.f_W.row(i);
+      Eigen::Map<Vector3d>(data_->qfrc_applied + 6 * i) = scene_.wrenches->f_W.row(i);
       Eigen::Map<Vector3d>(data_->qfrc_applied + 6 * i + 3) =
-          attitudeOf(i).conjugate() * Vector3d(scene_.wrenches.t_Bcm_W.row(i));
+          attitudeOf(i).conjugate() * Vector3d(scene_.wrenches->t_Bcm_W.row(i));
     }
   }
 
@@ -118,7 +134,10 @@ PeerRow row(const std::string& way, const std::string& about, mjtIntegrator inte
             Way how = Way::kStep) {
   PeerRow row = {std::string("MuJoCo ") + mj_versionString(), way, about,
                  [integrator, how](const Scene& scene) {
-                   return peerOf(std::make_shared<Mujoco>(scene, integrator, how));
+                   const auto engine = std::make_shared<Mujoco>(scene, integrator, how);
+                   Peer peer = peerOf(engine);
+                   peer.has_started_anew = [engine] { return engine->hasStartedAnew(); };
+                   return peer;
                  }};
   row.is_gyroscopic_optional = false;
   row.most_bodies = 4096;
@@ -129,10 +148,13 @@ PeerRow row(const std::string& way, const std::string& about, mjtIntegrator inte
 }  // namespace
 
 std::vector<PeerRow> peerRows() {
-  return {row("stages, Euler", "the stages that free bodies need, called one by one", mjINT_EULER,
-              Way::kStages),
-          row("Euler", "`mj_step` without constraints, contacts, sensors", mjINT_EULER),
-          row("RK4", "the same by Runge-Kutta", mjINT_RK4)};
+  PeerRow stages = row("stages, Euler", "the stages that free bodies need, called one by one",
+                       mjINT_EULER, Way::kStages);
+  PeerRow euler = row("Euler", "`mj_step` without constraints, contacts, sensors", mjINT_EULER);
+  PeerRow rk4 = row("RK4", "the same by Runge-Kutta", mjINT_RK4);
+  euler.hard_cases = "MuJoCo";
+  rk4.hard_cases = "MuJoCo RK4";
+  return {stages, euler, rk4};
 }
 
 }  // namespace rigid_body_sim::bench

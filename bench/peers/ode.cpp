@@ -51,9 +51,11 @@ class Ode {
     }
   }
 
-  Quaterniond attitudeOf(Eigen::Index i) const {
-    const dReal* q = dBodyGetQuaternion(bodies_[static_cast<std::size_t>(i)]);
-    return {q[0], q[1], q[2], q[3]};
+  Motion motionOf(Eigen::Index i) const {
+    const dBodyID body = bodies_[static_cast<std::size_t>(i)];
+    const dReal* q = dBodyGetQuaternion(body);
+    return {Vector3d(dBodyGetPosition(body)), Quaterniond(q[0], q[1], q[2], q[3]),
+            Vector3d(dBodyGetLinearVel(body)), Vector3d(dBodyGetAngularVel(body))};
   }
 
  private:
@@ -69,7 +71,7 @@ class Ode {
   }
 
   void push() {
-    const Wrenches& wrenches = scene_.wrenches;
+    const Wrenches& wrenches = *scene_.wrenches;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       dBodyAddForce(bodies_[k], wrenches.f_W(i, 0), wrenches.f_W(i, 1), wrenches.f_W(i, 2));
@@ -89,12 +91,18 @@ PeerRow row(const std::string& way, const std::string& about, const Options& opt
           [options](const Scene& scene) { return peerOf(std::make_shared<Ode>(scene, options)); }};
 }
 
+PeerRow inHardCases() {
+  PeerRow it = row("dWorldStep", "the direct solver, without a space of collisions", {});
+  it.hard_cases = "ODE";
+  return it;
+}
+
 }  // namespace
 
 std::vector<PeerRow> peerRows() {
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
-  return {row("dWorldStep", "the direct solver, without a space of collisions", {}),
+  return {inHardCases(),
           row("dWorldStep, finite", "the same with finite rotations", {Stepper::kWorldStep, true}),
           row("dWorldQuickStep", "the iterative solver", {Stepper::kQuickStep, false})};
 }

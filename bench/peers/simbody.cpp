@@ -11,6 +11,7 @@ namespace {
 using SimTK::Vec3;
 
 Vec3 vectorOf(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vector3d vectorOf(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Bodies of a scene in a system.
 class SimbodySystem {
@@ -24,8 +25,10 @@ class SimbodySystem {
     matter_.setShowDefaultGeometry(false);
     for (Eigen::Index i = 0; i < scene.bodies.count(); ++i) {
       const Vector3d I = scene.bodies.moments(i);
-      const SimTK::Body::Rigid body(SimTK::MassProperties(scene.bodies.mass(i), Vec3(0),
-                                                          SimTK::Inertia(I.x(), I.y(), I.z())));
+      const Vec3 offset = vectorOf(scene.offset(i));
+      const SimTK::Inertia I_O =
+          SimTK::Inertia(I.x(), I.y(), I.z()).shiftFromMassCenter(offset, scene.bodies.mass(i));
+      const SimTK::Body::Rigid body(SimTK::MassProperties(scene.bodies.mass(i), offset, I_O));
       bodies_.emplace_back(matter_.Ground(), body);
     }
     start_ = system_.realizeTopology();
@@ -42,14 +45,20 @@ class SimbodySystem {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       pushes_.setOneBodyForce(state, bodies_[k],
-                              SimTK::SpatialVec(vectorOf(scene_.wrenches.t_Bcm_W.row(i)),
-                                                vectorOf(scene_.wrenches.f_W.row(i))));
+                              SimTK::SpatialVec(vectorOf(scene_.wrenches->t_Bcm_W.row(i)),
+                                                vectorOf(scene_.wrenches->f_W.row(i))));
     }
   }
 
-  Quaterniond attitudeOf(const SimTK::State& state, Eigen::Index i) const {
-    const SimTK::Vector q = bodies_[static_cast<std::size_t>(i)].getQAsVector(state);
-    return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+  Motion motionOf(const SimTK::State& state, Eigen::Index i) const {
+    const SimTK::MobilizedBody::Free& body = bodies_[static_cast<std::size_t>(i)];
+    system_.realize(state, SimTK::Stage::Velocity);
+    const SimTK::Vector q = body.getQAsVector(state);
+    const Vec3 offset = vectorOf(scene_.offset(i));
+    return {vectorOf(body.findStationLocationInGround(state, offset)),
+            Quaterniond(q[0], q[1], q[2], q[3]).normalized(),
+            vectorOf(body.findStationVelocityInGround(state, offset)),
+            vectorOf(body.getBodyAngularVelocity(state))};
   }
 
  private:
@@ -58,9 +67,10 @@ class SimbodySystem {
     const BodyState body = scene_.bodies.state(i);
     const Quaterniond& q = body.q_WB;
     const SimTK::Rotation R_WB(SimTK::Quaternion(q.w(), q.x(), q.y(), q.z()));
-    bodies_[k].setQToFitTransform(start_, SimTK::Transform(R_WB, vectorOf(body.p_WBcm)));
+    const Vector3d r_W = q * scene_.offset(i), w_WB = scene_.w_WB(i);
+    bodies_[k].setQToFitTransform(start_, SimTK::Transform(R_WB, vectorOf(body.p_WBcm - r_W)));
     bodies_[k].setUToFitVelocity(
-        start_, SimTK::SpatialVec(vectorOf(scene_.w_WB(i)), vectorOf(scene_.v_WBcm(i))));
+        start_, SimTK::SpatialVec(vectorOf(w_WB), vectorOf(scene_.v_WBcm(i) - w_WB.cross(r_W))));
   }
 
   Scene scene_;
@@ -93,9 +103,7 @@ class Integrated {
     }
   }
 
-  Quaterniond attitudeOf(Eigen::Index i) const {
-    return system_.attitudeOf(method_->getState(), i);
-  }
+  Motion motionOf(Eigen::Index i) const { return system_.motionOf(method_->getState(), i); }
 
  private:
   std::unique_ptr<Method> makeMethod() const {
@@ -132,7 +140,7 @@ class Realized {
     }
   }
 
-  Quaterniond attitudeOf(Eigen::Index i) const { return system_.attitudeOf(state_, i); }
+  Motion motionOf(Eigen::Index i) const { return system_.motionOf(state_, i); }
 
  private:
   SimbodySystem system_;
@@ -159,9 +167,11 @@ std::vector<PeerRow> peerRows() {
       "RK-Merson", "Runge-Kutta-Merson at a fixed step");
   merson.most_bodies = 4096;
   merson.limit = "a step of 65,536 takes RK-Merson a second, and a million take some 10 GB";
-  return {row<Realized>("realize, Euler", "`realize` and semi-explicit Euler by hand"),
-          row<Integrated<SimTK::SemiExplicitEulerIntegrator>>("semi-explicit Euler",
-                                                              "the integrator of this name"),
+  merson.hard_cases = "Simbody RK";
+  PeerRow euler = row<Integrated<SimTK::SemiExplicitEulerIntegrator>>(
+      "semi-explicit Euler", "the integrator of this name");
+  euler.hard_cases = "Simbody Euler";
+  return {row<Realized>("realize, Euler", "`realize` and semi-explicit Euler by hand"), euler,
           merson};
 }
 

@@ -7,8 +7,10 @@
 //   open ROW LOAD BODIES      answers with a handle
 //   time HANDLE NS            steps for NS [ns]; answers with the time of a step of one body [ns]
 //   close HANDLE
+//   names                     of the rows that fly hard cases
+//   hard NAME CASE            what becomes of a case of the gallery; see hard_case.hpp
 //
-// A line with a dot ends every answer.
+// A line with a dot ends every answer. With words on its command line it answers these and ends.
 #include <unistd.h>
 
 #include <cmath>
@@ -18,6 +20,7 @@
 #include <map>
 #include <sstream>
 
+#include "hard_case.hpp"
 #include "peer.hpp"
 
 namespace rigid_body_sim::bench {
@@ -45,6 +48,10 @@ class Worker {
       words >> handle;
       opened_.erase(handle);
     }
+    if (verb == "names")
+      for (const PeerRow& row : rows_)
+        if (!row.hard_cases.empty()) text << row.hard_cases << '\n';
+    if (verb == "hard") text << hard(words);
     return text.str();
   }
 
@@ -64,7 +71,17 @@ class Worker {
     const Peer peer = rows_.at(row).make(scene);
     peer.reset();
     peer.step(static_cast<int>(std::lround(time_s / step_s)));
-    return attitudeError(scene, peer.attitudeOf(0), time_s);
+    return attitudeError(scene, peer.motionOf(0).q_WB, time_s);
+  }
+
+  std::string hard(std::istream& words) const {
+    std::string name, one;
+    std::getline(words >> std::ws, name, '\t');
+    words >> one;
+    for (const PeerRow& row : rows_)
+      if (row.hard_cases == name && !name.empty())
+        return flyHardCase(row, reference::hardCaseNamed(one));
+    throw std::invalid_argument("no row flies hard cases by the name '" + name + "'");
   }
 
   int open(std::istream& words) {
@@ -93,12 +110,18 @@ class Worker {
 }  // namespace
 }  // namespace rigid_body_sim::bench
 
-int main() try {
+int main(int argc, char** argv) try {
   // What an engine prints of its own goes to the error output.
   std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
   dup2(STDERR_FILENO, STDOUT_FILENO);
   rigid_body_sim::bench::Worker worker;
-  for (std::string line; std::getline(std::cin, line);) {
+  std::string line;
+  for (int k = 1; k < argc; ++k) line += (k == 1 ? "" : k == 2 ? " " : "\t") + std::string(argv[k]);
+  if (argc > 1) {
+    std::fprintf(answers, "%s\n.\n", worker.answer(line).c_str());
+    return 0;
+  }
+  while (std::getline(std::cin, line)) {
     std::fprintf(answers, "%s\n.\n", worker.answer(line).c_str());
     std::fflush(answers);
   }

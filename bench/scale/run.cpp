@@ -12,7 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "../../test/child_process.hpp"
+#include "tools/child_process.hpp"
 #include "../../test/xml_rpc_tree.hpp"
 
 namespace rigid_body_sim::scale {

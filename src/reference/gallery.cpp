@@ -17,10 +17,13 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr int kLooks = 32;           // at energy and angular momentum, in free flight
 constexpr double kHundredth = 0.01;  // what kDrifts may be off
 
-using Errors = std::map<Measure, double>;
+struct Errors {
+  std::map<Measure, double> largest;
+  double energy_change = 0;  // with its sign
+};
 
 void takeLarger(Errors& errors, Measure measure, double error) {
-  double& largest = errors[measure];
+  double& largest = errors.largest[measure];
   largest = std::isnan(error) ? kInf : std::max(largest, error);
 }
 
@@ -36,8 +39,11 @@ void lookAtConstants(const Bodies& now, const std::vector<BodyState>& truth, con
     const BodyState& expected = truth[static_cast<std::size_t>(i)];
     const double energy = kineticEnergy(expected, now.mass(i), now.moments(i));
     const double at_start = kineticEnergy(start, i);
-    takeLarger(errors, Measure::kEnergy,
-               relative(std::abs(kineticEnergy(now, i) - energy), std::max(energy, at_start)));
+    const double difference = kineticEnergy(now, i) - energy;
+    const double change = relative(std::abs(difference), std::max(energy, at_start));
+    if (!(change <= errors.largest[Measure::kEnergy]))
+      errors.energy_change = std::copysign(change, difference);
+    takeLarger(errors, Measure::kEnergy, change);
     const Vector3d L = expected.L_WBcm_W;
     const double L_scale = std::max(L.stableNorm(), start.state(i).L_WBcm_W.stableNorm());
     takeLarger(errors, Measure::kAngularMomentum,
@@ -71,7 +77,8 @@ const Answer& answerOf(const HardCase& one, const Bodies& start, Tick ticks, dou
 Outcome outcomeOf(const Verdict& verdict, Errors& errors) {
   for (std::size_t k = 0; k < verdict.errors.size(); ++k) {
     if (verdict.errors[k] <= verdict.bounds[k]) continue;
-    return errors[Measure::kEnergy] <= kHundredth && errors[Measure::kAngularMomentum] <= kHundredth
+    return errors.largest[Measure::kEnergy] <= kHundredth &&
+                   errors.largest[Measure::kAngularMomentum] <= kHundredth
                ? Outcome::kDrifts
                : Outcome::kWrong;
   }
@@ -143,46 +150,68 @@ Tick ticksOf(const HardCase& one, bool takes_its_time) {
   return takes_its_time && one.long_ticks > 0 ? one.long_ticks : one.ticks;
 }
 
-void flyCase(const HardCase& one, Simulator& simulator, Tick ticks, Tick every,
-             const std::function<void(const Simulator&)>& each) {
-  while (simulator.tick() < ticks && simulator.frozenBodies().empty()) {
-    if (each && simulator.tick() % every == 0) each(simulator);
-    if (one.input) one.input(simulator);
-    simulator.step();
+void stepCase(const HardCase& one, Simulator& simulator) {
+  const TorqueInput given = one.input ? one.input(simulator.tick()) : TorqueInput();
+  if (!given.t_W.isZero(0)) {
+    WrenchInput input;
+    input.applied.wrench.t_Q_F = given.t_W;
+    input.ticks = 1;
+    simulator.apply(input);
   }
+  if (!given.J_W.isZero(0)) {
+    ImpulseInput input;
+    input.applied.wrench.t_Q_F = given.J_W;
+    input.start = simulator.tick();
+    simulator.apply(input);
+  }
+  simulator.step();
+}
+
+Verdict judge(const HardCase& one, const Flyer& flyer, Tick ticks) {
+  Verdict verdict;
+  const Answer& answer = answerOf(one, flyer.start, ticks, flyer.step_s);
+  const Tick every = std::max<Tick>(1, ticks / kLooks);
+  Errors errors;
+  Tick tick = 0;
+  for (; tick < ticks && !flyer.is_lost(); ++tick) {
+    if (flyer.is_free && tick % every == 0)
+      lookAtConstants(flyer.bodies(), answer.end, flyer.start, errors);
+    flyer.step(tick);
+  }
+  verdict.end_s = static_cast<double>(tick) * flyer.step_s;
+  if (flyer.is_lost()) {
+    verdict.outcome = Outcome::kInfinite;
+    return verdict;
+  }
+  lookAtEnd(flyer.bodies(), answer.end, flyer.start, errors);
+  for (const Bound& bound : one.must) {
+    verdict.errors.push_back(errors.largest[bound.measure]);
+    verdict.bounds.push_back(bound.most + static_cast<double>(ticks) * bound.a_tick +
+                             bound.ulps * answer.turn_of_an_ulp);
+  }
+  verdict.energy_change = errors.energy_change;
+  verdict.momentum_error = errors.largest[Measure::kAngularMomentum];
+  verdict.outcome = outcomeOf(verdict, errors);
+  return verdict;
 }
 
 Verdict judge(const HardCase& one, const std::string& rung, bool takes_its_time) {
-  Verdict verdict;
   std::optional<Simulator> simulator;
   try {
     simulator.emplace(sceneOf(one, rung));
   } catch (const std::invalid_argument& error) {
+    Verdict verdict;
     verdict.outcome = Outcome::kRefused;
     verdict.why = error.what();
     return verdict;
   }
-  const Tick ticks = ticksOf(one, takes_its_time);
-  const Bodies start = simulator->bodies();
-  const Answer& answer = answerOf(one, start, ticks, simulator->scene().step_s());
-  const bool is_free = !one.input && simulator->scene().effects.empty();
-  Errors errors;
-  flyCase(one, *simulator, ticks, std::max<Tick>(1, ticks / kLooks), [&](const Simulator& now) {
-    if (is_free) lookAtConstants(now.bodies(), answer.end, start, errors);
-  });
-  verdict.end_s = simulator->time_s();
-  if (!simulator->frozenBodies().empty()) {
-    verdict.outcome = Outcome::kInfinite;
-    return verdict;
-  }
-  lookAtEnd(simulator->bodies(), answer.end, start, errors);
-  for (const Bound& bound : one.must) {
-    verdict.errors.push_back(errors[bound.measure]);
-    verdict.bounds.push_back(bound.most + static_cast<double>(ticks) * bound.a_tick +
-                             bound.ulps * answer.turn_of_an_ulp);
-  }
-  verdict.outcome = outcomeOf(verdict, errors);
-  return verdict;
+  return judge(
+      one,
+      {simulator->bodies(), simulator->scene().step_s(),
+       !one.input && simulator->scene().effects.empty(), [&](Tick) { stepCase(one, *simulator); },
+       [&]() -> const Bodies& { return simulator->bodies(); },
+       [&] { return !simulator->frozenBodies().empty(); }},
+      ticksOf(one, takes_its_time));
 }
 
 }  // namespace rigid_body_sim::reference

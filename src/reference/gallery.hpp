@@ -47,6 +47,12 @@ struct Excuse {
   std::string why;
 };
 
+/// What a case does to its first body in a tick, in world axes.
+struct TorqueInput {
+  Vector3d t_W = Vector3d::Zero();  ///< torque for the tick [N m]
+  Vector3d J_W = Vector3d::Zero();  ///< angular impulse at its beginning [N m s]
+};
+
 /// Rungs that raise floating-point exceptions on the way, and why that is no harm.
 struct Untrapped {
   std::vector<std::string> rungs = {};
@@ -65,8 +71,8 @@ struct HardCase {
   std::string source = {};       ///< of the case and of its answer
   std::string elsewhere = {};    ///< how other engines fail on it, and who measured it
   std::vector<Excuse> excuses = {};
-  std::function<void(Simulator&)> input = {};  ///< before each tick; none: a flight without inputs
-  std::string urdf = {};                       ///< text whose bodies join the scene's
+  std::function<TorqueInput(Tick)> input = {};  ///< none: a flight without inputs
+  std::string urdf = {};                        ///< text whose bodies join the scene's
   Untrapped untrapped = {};
 };
 
@@ -92,6 +98,8 @@ struct Verdict {
   std::vector<double> errors = {};  ///< beside each bound; none if refused or infinite
   std::vector<double> bounds = {};  ///< in numbers
   double end_s = 0;                 ///< when the flight ended [s]
+  double energy_change = 0;         ///< relative, where it was largest; of the body that is worst
+  double momentum_error = 0;        ///< of L, relative, the same
   std::string why = {};             ///< of a refusal, in the simulator's words
 };
 
@@ -100,15 +108,26 @@ struct Verdict {
 /// bound needs no excuse.
 bool keeps(const Claim& claim, const Verdict& verdict);
 
+/// What flies a case: one of our rungs, or another engine.
+struct Flyer {
+  Bodies start;
+  double step_s;
+  bool is_free;                           ///< nothing acts: energy and L are looked at on the way
+  std::function<void(Tick tick)> step;    ///< with the case's input
+  std::function<const Bodies&()> bodies;  ///< as they are now
+  std::function<bool()> is_lost;          ///< there is no going on
+};
+
+/// Flies the case and judges the end.
+Verdict judge(const HardCase& one, const Flyer& flyer, Tick ticks);
+
 /// How long a case is flown: as its row says, or its long way.
 Tick ticksOf(const HardCase& one, bool takes_its_time);
 
 /// Flies the case with a rung of the registry, one step a tick, and judges it.
 Verdict judge(const HardCase& one, const std::string& rung, bool takes_its_time = false);
 
-/// Flies without judging. Ends early if a body is frozen.
-/// @param each is called before the first tick and after each `every` ticks; may be empty
-void flyCase(const HardCase& one, Simulator& simulator, Tick ticks, Tick every = 1,
-             const std::function<void(const Simulator&)>& each = {});
+/// A tick of the simulator with the case's input.
+void stepCase(const HardCase& one, Simulator& simulator);
 
 }  // namespace rigid_body_sim::reference

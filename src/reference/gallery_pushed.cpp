@@ -15,12 +15,10 @@ const std::string kStone = bodyYaml("stone", "1", "1, 1.3, 2.1", "1.1, -2.3, 0.7
 HardCase pulse() {
   HardCase one = {"torque_pulse_of_1e9_Nm", "for one tick: 2e7 N m s, 2e5 rad a step ever after",
                   sceneYaml(kStone), 100};
-  one.input = [](Simulator& simulator) {
-    if (simulator.tick() > 0) return;
-    WrenchInput input;
-    input.applied.wrench.t_Q_F = 1e9 * kAlong;
-    input.ticks = 1;
-    simulator.apply(input);
+  one.input = [](Tick tick) {
+    TorqueInput input;
+    if (tick == 0) input.t_W = 1e9 * kAlong;
+    return input;
   };
   one.answer = gaining(1e9 * 0.02 * kAlong);
   one.must = {{Measure::kAngularMomentum, 4 * 0x1p-52, "torque times time, in two halves"},
@@ -39,11 +37,10 @@ HardCase pulse() {
 HardCase impulses() {
   HardCase one = {"impulses_of_1e6_Nms", "to and fro each tick, 500 times: all must be paid back",
                   sceneYaml(kStone), 1'000};
-  one.input = [](Simulator& simulator) {
-    ImpulseInput input;
-    input.applied.wrench.t_Q_F = (simulator.tick() % 2 == 0 ? 1e6 : -1e6) * kAlong;
-    input.start = simulator.tick();
-    simulator.apply(input);
+  one.input = [](Tick tick) {
+    TorqueInput input;
+    input.J_W = (tick % 2 == 0 ? 1e6 : -1e6) * kAlong;
+    return input;
   };
   one.answer = rest;
   // Half an ulp of 1e6 in each component, of the 3.5 kg m^2/s that there are.
@@ -62,11 +59,10 @@ HardCase impulses() {
 HardCase switching() {
   HardCase one = {"torque_switches_each_tick", "full on one way, full on the other, for 10 s",
                   sceneYaml(kStone), 500};
-  one.input = [](Simulator& simulator) {
-    WrenchInput input;
-    input.applied.wrench.t_Q_F = (simulator.tick() % 2 == 0 ? 1 : -1) * 20 * kAlong;
-    input.ticks = 1;
-    simulator.apply(input);
+  one.input = [](Tick tick) {
+    TorqueInput input;
+    input.t_W = (tick % 2 == 0 ? 1 : -1) * 20 * kAlong;
+    return input;
   };
   one.answer = switchedTorque(20 * kAlong);
   one.must = {{Measure::kAttitude, 5e-4, "second order: measured 1.7e-4 (exact), 2.3e-4 (split2)"},

@@ -10,12 +10,14 @@
 #include <string>
 
 #include "tools/hard_cases/matrix.hpp"
+#include "tools/hard_cases/peers.hpp"
 
 namespace rigid_body_sim::hard_cases {
 namespace {
 
 struct Arguments {
   Plan plan;
+  Peers peers;
   std::string output;
   bool has_no_plot = false;
   bool lists_cases = false;
@@ -24,8 +26,14 @@ struct Arguments {
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--case", arguments.plan.cases, "these cases, default all")->delimiter(',');
   app.add_option("--integrators", arguments.plan.rungs, "the rungs, default all")->delimiter(',');
-  app.add_flag("--long", arguments.plan.takes_its_time,
-               "1e8 steps, a year, six hours where a row has such a way; many minutes");
+  const auto is_long =
+      app.add_flag("--long", arguments.plan.takes_its_time,
+                   "1e8 steps, a year, six hours where a row has such a way; many minutes");
+  app.add_option(
+         "--peers", arguments.peers.folder,
+         "other engines beside: folder of their programs, which scripts/compare_hard_cases builds; "
+         "some minutes")
+      ->excludes(is_long);
   app.add_flag("--list", arguments.lists_cases,
                "list the cases, what must hold, and how others fail on them");
   const auto output =
@@ -66,14 +74,23 @@ int plot(const std::string& folder) {
 
 int run(const Arguments& arguments) {
   if (arguments.lists_cases) return listCases(), 0;
+  if (!arguments.peers.folder.empty()) engineNames(arguments.peers);  // refused before the flights
   const std::vector<Cell> cells = fly(arguments.plan, showProgress);
   showProgress("", 1);
   print(cells, std::cout);
+  std::vector<PeerCell> peers;
+  if (!arguments.peers.folder.empty()) {
+    peers = flyPeers(arguments.peers, arguments.plan.cases, showProgress);
+    showProgress("", 1);
+    print(peers, std::cout);
+  }
   const bool is_kept =
       std::all_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.keepsClaim(); });
   if (!arguments.output.empty()) {
     const std::string folder = std::filesystem::absolute(arguments.output).string();
     writeCsv(cells, folder);
+    std::filesystem::remove(folder + "/peers.csv");  // of an earlier flight
+    if (!peers.empty()) writeCsv(peers, folder);
     std::cout << "\nNumbers: " << folder << "/*.csv" << std::endl;
     if (!arguments.has_no_plot && is_kept) return plot(folder);
   }

@@ -2,50 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
-#include <stdexcept>
+
+#include "tools/hard_cases/text.hpp"
 
 namespace rigid_body_sim::hard_cases {
 namespace {
 
 using reference::Bound;
 using reference::HardCase;
-using reference::Measure;
 using reference::Outcome;
-
-struct MeasureWords {
-  const char* name;
-  const char* unit;
-};
-
-MeasureWords wordsOf(Measure measure) {
-  switch (measure) {
-    case Measure::kAttitude:
-      return {"attitude", "rad"};
-    case Measure::kPosition:
-      return {"position", "m"};
-    case Measure::kMomentum:
-      return {"P", ""};
-    case Measure::kAngularMomentum:
-      return {"L", ""};
-    case Measure::kEnergy:
-      return {"energy", ""};
-    case Measure::kLength:
-      return {"|q|", ""};
-  }
-  return {"", ""};
-}
-
-std::string text(double number, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << number;
-  return text.str();
-}
 
 std::vector<std::string> rungsOf(const Plan& plan) {
   std::vector<std::string> rungs;
@@ -55,21 +23,6 @@ std::vector<std::string> rungsOf(const Plan& plan) {
         std::find(plan.rungs.begin(), plan.rungs.end(), row.name) != plan.rungs.end())
       rungs.push_back(row.name);
   return rungs;
-}
-
-std::vector<const HardCase*> casesOf(const Plan& plan) {
-  std::vector<const HardCase*> cases;
-  for (const std::string& name : plan.cases) cases.push_back(&reference::hardCaseNamed(name));
-  if (plan.cases.empty())
-    for (const HardCase& one : reference::gallery()) cases.push_back(&one);
-  return cases;
-}
-
-/// The measure to show: the row's first, or the first that is out of its bound.
-std::size_t shownOf(const reference::Verdict& verdict) {
-  for (std::size_t k = 0; k < verdict.errors.size(); ++k)
-    if (verdict.errors[k] > verdict.bounds[k]) return k;
-  return 0;
 }
 
 /// What a cell says: the error where the flight holds, what became of it where not.
@@ -87,24 +40,6 @@ std::string inACell(const Cell& cell) {
       return (verdict.outcome == Outcome::kDrifts ? "~" : "x") + text(verdict.errors[shown], 2) +
              (shown == 0 ? "" : std::string(" ") + wordsOf(cell.one->must[shown].measure).name);
   }
-}
-
-std::ofstream open(const std::string& folder, const std::string& name) {
-  std::ofstream file(folder + "/" + name);
-  if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
-  return file;
-}
-
-void close(std::ofstream& file, const std::string& folder) {
-  file.close();
-  if (!file) throw std::invalid_argument(folder + ": the disk is full, or it cannot be written to");
-}
-
-/// Quoted, as sentences have commas.
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
 }
 
 /// The parts of a case's first bound in words: `2.2e-16 a tick + 16 ulps`.
@@ -151,7 +86,7 @@ void printBroken(const std::vector<Cell>& cells, std::ostream& out) {
 std::vector<Cell> fly(const Plan& plan,
                       const std::function<void(const std::string& what, double part)>& progress) {
   using Clock = std::chrono::steady_clock;
-  const auto cases = casesOf(plan);
+  const auto cases = casesNamed(plan.cases);
   const auto rungs = rungsOf(plan);
   std::vector<Cell> cells;
   for (const HardCase* one : cases) {
@@ -191,7 +126,6 @@ void print(const std::vector<Cell>& cells, std::ostream& out) {
 }
 
 void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
-  std::filesystem::create_directories(folder);
   writeCases(cells, folder);
   std::ofstream file = open(folder, "cells.csv");
   file << "case,rung,outcome,claim,keeps_claim,measure,unit,error,bound,end_s,wall_s,why\n";

@@ -1,7 +1,7 @@
 #pragma once
 
-// A program that a test starts, and all that it says. Nothing here sleeps: the end of the output is
-// the end of the program.
+// A program that another one starts, and all that it says. Nothing here sleeps: the end of the
+// output is the end of the program.
 
 #include <fcntl.h>
 #include <poll.h>
@@ -23,8 +23,9 @@ class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Starts `command`: the program's path and its arguments.
-  explicit ChildProcess(std::vector<std::string> command) : started_(Clock::now()) {
+  /// Starts `command`: the program's path and its arguments; in `folder`, or where this program is.
+  explicit ChildProcess(std::vector<std::string> command, const std::string& folder = "")
+      : started_(Clock::now()) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     output_ = ends[0];
@@ -32,6 +33,7 @@ class ChildProcess {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     std::vector<char*> arguments;
     for (std::string& word : command) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -53,6 +55,9 @@ class ChildProcess {
 
   void signal(int number) const { kill(pid_, number); }
   pid_t pid() const { return pid_; }
+
+  /// Whether exitCode() did not wait for its end.
+  bool isGivenUp() const { return is_given_up_; }
 
   double secondsSinceStart() const {
     return std::chrono::duration<double>(Clock::now() - started_).count();
@@ -83,7 +88,8 @@ class ChildProcess {
   int exitCode(double timeout_s = 10) {
     const auto end = deadline(timeout_s);
     while (readSome(end)) continue;
-    if (!is_over_) signal(SIGKILL);
+    is_given_up_ = !is_over_;
+    if (is_given_up_) signal(SIGKILL);
     int status = 0;
     waitpid(pid_, &status, 0);
     pid_ = 0;
@@ -112,6 +118,7 @@ class ChildProcess {
   pid_t pid_ = 0;
   int output_ = -1;
   bool is_over_ = false;
+  bool is_given_up_ = false;
   std::string said_;
 };
 
