@@ -12,7 +12,7 @@ namespace {
 /// Bodies that tumble at some 1 rad/s, pushed by wrenches that leave them about as they are.
 struct Scene {
   std::ptrdiff_t count;
-  std::vector<double> mass, I, p, q, P, L, f, t;
+  std::vector<double> mass, I, p, p_low, q, P, L, f, t;
   std::vector<double> p_stage, q_stage, P_stage, L_stage, tiles, spins;
 
   explicit Scene(std::ptrdiff_t n)
@@ -20,6 +20,7 @@ struct Scene {
         mass(n),
         I(3 * n),
         p(3 * n),
+        p_low(3 * n),
         q(4 * n),
         P(3 * n),
         L(3 * n),
@@ -49,11 +50,11 @@ struct Scene {
   }
 
   BodyColumns bodies() {
-    return {count, mass.data(), I.data(), p.data(), q.data(), P.data(), L.data()};
+    return {count, mass.data(), I.data(), p.data(), q.data(), P.data(), L.data(), p_low.data()};
   }
   BodyColumns stages() {
-    return {count,          nullptr,        nullptr,       p_stage.data(),
-            q_stage.data(), P_stage.data(), L_stage.data()};
+    return {count,          nullptr,        nullptr,        p_stage.data(),
+            q_stage.data(), P_stage.data(), L_stage.data(), nullptr};
   }
   WrenchColumns wrenches() const { return {count, f.data(), t.data()}; }
 };

@@ -30,6 +30,7 @@ struct Bodies {
   ColumnQ q_WB;      ///< unit
   Column3 P_WB;      ///< [kg m/s]
   Column3 L_WBcm_W;  ///< [kg m^2/s]
+  Column3 p_low;     ///< [m]
 
   Bodies() = default;
   explicit Bodies(Eigen::Index count)
@@ -38,7 +39,8 @@ struct Bodies {
         p_WBcm(count, 3),
         q_WB(count, 4),
         P_WB(count, 3),
-        L_WBcm_W(count, 3) {}
+        L_WBcm_W(count, 3),
+        p_low(Column3::Zero(count, 3)) {}
 
   Eigen::Index count() const { return mass.size(); }
   bool hasAddedMass() const { return inverse_mass_B.rows() > 0; }
@@ -75,7 +77,8 @@ struct Bodies {
   }
 
   BodyState state(Eigen::Index i) const {
-    return {p_WBcm.row(i), Quaterniond(Eigen::Vector4d(q_WB.row(i))), P_WB.row(i), L_WBcm_W.row(i)};
+    return {p_WBcm.row(i), Quaterniond(Eigen::Vector4d(q_WB.row(i))), P_WB.row(i), L_WBcm_W.row(i),
+            p_low.row(i)};
   }
 
   void setState(Eigen::Index i, const BodyState& state) {
@@ -83,6 +86,7 @@ struct Bodies {
     q_WB.row(i) = state.q_WB.coeffs();
     P_WB.row(i) = state.P_WB;
     L_WBcm_W.row(i) = state.L_WBcm_W;
+    p_low.row(i) = state.p_low;
   }
 
   Vector3d moments(Eigen::Index i) const { return I_BBcm_B.row(i); }

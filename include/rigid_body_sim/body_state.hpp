@@ -10,7 +10,19 @@ struct BodyState {
   Quaterniond q_WB = Quaterniond::Identity();  ///< unit
   Vector3d P_WB = Vector3d::Zero();            ///< linear momentum [kg m/s]
   Vector3d L_WBcm_W = Vector3d::Zero();        ///< angular momentum about Bcm [kg m^2/s]
+  Vector3d p_low = Vector3d::Zero();           ///< what rounding left of p_WBcm, see move() [m]
 };
+
+/// p_WBcm += way [m]. Below half an ulp of the position a way would be lost, each step's anew and
+/// to the same side: what is left over is kept for the next one, so that p_WBcm is the sum of all
+/// ways rounded once (two-sum, D.E. Knuth, The Art of Computer Programming 2, 4.2.2).
+inline void move(BodyState& body, const Vector3d& way) {
+  const Vector3d all = body.p_low + way;
+  const Vector3d sum = body.p_WBcm + all;
+  const Vector3d added = sum - body.p_WBcm;
+  body.p_low = (body.p_WBcm - (sum - added)) + (all - added);
+  body.p_WBcm = sum;
+}
 
 /// Velocity of the centre of mass v_WBcm [m/s] = P / m.
 inline Vector3d velocity(const BodyState& body, double mass) { return body.P_WB / mass; }

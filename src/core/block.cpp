@@ -23,9 +23,10 @@ void forColumns(AnyBodies& bodies, F f) {
   f(bodies.q_WB);
   f(bodies.P_WB);
   f(bodies.L_WBcm_W);
+  f(bodies.p_low);
 }
 
-constexpr Eigen::Index kStateNumbers = 13;
+constexpr Eigen::Index kStateNumbers = 16;
 
 std::vector<Eigen::Index> allOf(const Scene& scene) {
   std::vector<Eigen::Index> all(scene.bodies.size());

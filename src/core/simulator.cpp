@@ -25,6 +25,7 @@ void copyState(const Bodies& from, Bodies& to) {
   to.q_WB = from.q_WB;
   to.P_WB = from.P_WB;
   to.L_WBcm_W = from.L_WBcm_W;
+  to.p_low = from.p_low;
 }
 
 /// Every frame of every body becomes a frame of one tree.

@@ -90,7 +90,9 @@ class AddedMassEffect : public Effect {
   void flow(Bodies& bodies, double h) const {
     for (const auto& [i, carried] : members_) {
       const Vector3d P_WB = bodies.P_WB.row(i), v_WBcm = bodies.v_WBcm(i);
-      bodies.p_WBcm.row(i) += h * (v_WBcm - P_WB / bodies.mass(i));
+      BodyState body = bodies.state(i);
+      move(body, h * (v_WBcm - P_WB / bodies.mass(i)));
+      bodies.setState(i, body);
       if (!carried.is_isotropic) bodies.L_WBcm_W.row(i) -= h * v_WBcm.cross(P_WB);
     }
   }

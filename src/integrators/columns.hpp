@@ -10,7 +10,7 @@ namespace rigid_body_sim {
 
 inline batch::BodyColumns columnsOf(Bodies& bodies) {
   return {bodies.count(),     bodies.mass.data(), bodies.I_BBcm_B.data(), bodies.p_WBcm.data(),
-          bodies.q_WB.data(), bodies.P_WB.data(), bodies.L_WBcm_W.data()};
+          bodies.q_WB.data(), bodies.P_WB.data(), bodies.L_WBcm_W.data(), bodies.p_low.data()};
 }
 
 inline batch::WrenchColumns columnsOf(const Wrenches& wrenches) {

@@ -16,17 +16,26 @@ class AddedMassPath {
     for (Eigen::Index i = 0; i < bodies.count(); ++i)
       if (bodies.carries(i)) carry_.push_back(i);
     p_start_ = bodies.p_WBcm;
+    p_low_start_ = bodies.p_low;
     v_sum_.setZero(bodies.count(), 3);
   }
   void add(const Column3& v_WBcm, double weight) { v_sum_ += weight * v_WBcm; }
   void moveStage(Bodies& stage, const Column3& v_WBcm, double h) const {
     for (const Eigen::Index i : carry_) stage.p_WBcm.row(i) = p_start_.row(i) + h * v_WBcm.row(i);
   }
-  void end(Bodies& bodies, double h) const { moveStage(bodies, v_sum_, h); }
+  void end(Bodies& bodies, double h) const {
+    for (const Eigen::Index i : carry_) {
+      BodyState body = bodies.state(i);
+      body.p_WBcm = p_start_.row(i);
+      body.p_low = p_low_start_.row(i);
+      move(body, h * v_sum_.row(i).transpose());
+      bodies.setState(i, body);
+    }
+  }
 
  private:
   std::vector<Eigen::Index> carry_;
-  Column3 p_start_, v_sum_;
+  Column3 p_start_, p_low_start_, v_sum_;
 };
 
 /// The classical method for positions and momenta; for the attitude its Lie group form with two

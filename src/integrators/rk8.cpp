@@ -132,7 +132,7 @@ class DormandPrince {
     for (Eigen::Index i = 0; i < bodies.count(); ++i) {
       const Rates<kForced> step = h * sum(stages_[i], Dop853::b);
       BodyState body = starts_[i].state;
-      body.p_WBcm += step.matrix().segment<3>(kVelocity);
+      move(body, step.matrix().segment<3>(kVelocity));
       body.P_WB += step.matrix().segment<3>(kForce);
       Vector3d dL_W = Vector3d::Zero();
       for (const Dop853::Weight& b : Dop853::b) dL_W += (h * b.value) * torques_[i][b.stage];
@@ -153,7 +153,7 @@ class DormandPrince {
   void stepFree(Bodies& bodies, Eigen::Index i, double h) const {
     const Moment start = startOf(bodies, i);
     BodyState body = start.state;
-    body.p_WBcm += (h / bodies.mass(i)) * body.P_WB;
+    move(body, (h / bodies.mass(i)) * body.P_WB);
     if (!start.m_B.isZero(0)) {
       const Vector3d I = bodies.moments(i);
       Stages<kFree> k;

@@ -76,7 +76,7 @@ class VelocityEuler : public Integrator {
                              body.q_WB * nextAngularVelocity<its_gyration>(w_B, t_B, I, h)};
 
     const Velocities& moving = pose_moves_with == PoseMovesWith::kNewVelocity ? next : old;
-    body.p_WBcm += h * moving.v_WBcm;
+    move(body, h * moving.v_WBcm);
     body.q_WB = renormalized(rotationExp(h * moving.w_WB) * body.q_WB);
     body.P_WB = mass * next.v_WBcm;
     body.L_WBcm_W = body.q_WB * I.cwiseProduct(body.q_WB.conjugate() * next.w_WB);

@@ -19,6 +19,7 @@ struct BodyColumns {
   double* q_WB;
   double* P_WB;
   double* L_WBcm_W;
+  double* p_low;
 };
 
 /// The columns of Wrenches.

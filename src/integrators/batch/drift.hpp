@@ -16,6 +16,18 @@ RBS_INLINE auto kicked(const Place& at, double* columns, std::ptrdiff_t stride, 
   return v;
 }
 
+/// As rigid_body_sim::move().
+template <class Place, class S>
+RBS_INLINE void move(const Place& at, const BodyColumns& bodies, const Vector<S>& way) {
+  const std::ptrdiff_t n = bodies.stride;
+  const Vector<S> p = loadVector(at, bodies.p_WBcm, n);
+  const Vector<S> all = loadVector(at, bodies.p_low, n) + way;
+  const Vector<S> sum = p + all;
+  const Vector<S> added = sum - p;
+  storeVector(at, bodies.p_low, n, (p - (sum - added)) + (all - added));
+  storeVector(at, bodies.p_WBcm, n, sum);
+}
+
 /// A number times zero is zero, but for what is not finite.
 template <class S>
 bool areFinite(const BodyColumns& of, Range range) {
@@ -47,8 +59,7 @@ void kick(const BodyColumns& to, const WrenchColumns& by, double h, Range range)
 template <class Place, class S>
 RBS_INLINE void driftPosition(const Place& at, const BodyColumns& bodies, const Vector<S>& P_WB,
                               double h) {
-  const auto p = loadVector(at, bodies.p_WBcm, bodies.stride);
-  storeVector(at, bodies.p_WBcm, bodies.stride, p + (h / at.load(bodies.mass)) * P_WB);
+  move(at, bodies, (h / at.load(bodies.mass)) * P_WB);
 }
 
 template <class S>

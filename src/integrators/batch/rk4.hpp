@@ -97,8 +97,7 @@ RBS_INLINE void rk4PathAt(const Place& at, const BodyColumns& bodies, const Body
   if constexpr (stage == 0) tile.store(kInverseMass, 1 / at.load(bodies.mass));
   if constexpr (stage == 3) {
     const double sixth = h / 6;
-    storeVector(at, bodies.p_WBcm, n,
-                p0 + (h * tile.load(kInverseMass)) * (P0 + sixth * tile.loadVector(kForcesOfPath)));
+    move(at, bodies, (h * tile.load(kInverseMass)) * (P0 + sixth * tile.loadVector(kForcesOfPath)));
     storeVector(at, bodies.P_WB, n, P0 + sixth * (tile.loadVector(kForces) + f_W));
   } else {
     const double ah = stage == 2 ? h : 0.5 * h;
