@@ -3,12 +3,12 @@
 // What all conservative effects have to keep: their wrenches are the gradient of their potential,
 // a choice of bodies feels what it feels in the whole, and the energy audit closes.
 
+#include <boost/math/special_functions/ellint_1.hpp>
 #include <iomanip>
 #include <memory>
 #include <sstream>
 
 #include "generic.hpp"
-#include "integrators/jacobi.hpp"
 #include "rigid_body_sim/active_effects.hpp"
 
 namespace rigid_body_sim {
@@ -128,7 +128,7 @@ inline void expectEnergyAuditCloses(const Scene& scene) {
 /// side, after all of it where it was.
 /// @param axis_W of the turn, unit
 inline void expectPendulum(const Scene& scene, const Vector3d& axis_W, double angle, double omega) {
-  const double period = 4 * quarterPeriod(std::pow(std::cos(angle / 2), 2)) / omega;
+  const double period = 4 * boost::math::ellint_1(std::sin(angle / 2)) / omega;
   const auto errorAfter = [&](const std::string& integrator, double time_s, int steps,
                               double turn) {
     Bodies bodies = Simulator(scene).bodies();

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "generic.hpp"
-#include "integrators/exact_rotation.hpp"
 #include "reference/free_rotation.hpp"
+#include "rotor.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -70,7 +69,7 @@ TEST(ExactCondition, ErrorIsThatOfRoundingTheInputs) {
   std::vector<double> ratios;
   for (int i = 0; i < 1001; ++i) {
     const Inputs inputs = inputsOf(i % kKindCount, generator);
-    const FreeRotation found = exactRotation(inputs.m_B, inputs.I_BBcm_B, inputs.h);
+    const batch::Rotation found = batch::turned(inputs.m_B, inputs.I_BBcm_B, inputs.h);
     const double error = angle(found.q_BBnext.cast<reference::Real>().normalized(), truth(inputs));
     // A turn of a thousandth of a radian changes by 1e-19 with its inputs; no double has that.
     ratios.push_back(error / std::max(effectOfOneUlp(inputs), kEps / 2));

@@ -125,7 +125,7 @@ TEST(GravityGradient, CylinderLibratesInThePlaneOfItsOrbit) {
   // formula; the crossings are found on chords of 1 s.
   for (const double angle : {1e-4, 5 * kPi / 180, 0.6}) {
     const Quaterniond tilt(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
-    const double expected = 3257.94 / (kPi / 2) * quarterPeriod(std::pow(std::cos(angle), 2));
+    const double expected = 3257.94 / (kPi / 2) * boost::math::ellint_1(std::sin(angle));
     const double period = measuredPeriod(satellite(rateOfOrbit(), kCylinder, tilt), pitch, 4);
     RecordProperty("period_s", std::to_string(period));
     EXPECT_NEAR(period / expected, 1, 1e-7) << period << " s";
@@ -164,8 +164,9 @@ TEST(GravityGradient, FasterThanTheOrbitIsRefusedByTheSwingItMakes) {
   const Scene scene = sceneFrom(
       "{effects: {central_gravity: {mu: 1.0e+6, gravity_gradient: true}}, bodies: {rod: {mass: 1, "
       "inertia: [1.0e-9, 1, 1], position: [0, 0, 1]}}}");
-  EXPECT_TRUE(contains(refusal([&] { Simulator{scene}; }),
-                       {"central_gravity", "1732.05 rad/s", "largest stable step is 0.000288675 s"}));
+  EXPECT_TRUE(
+      contains(refusal([&] { Simulator{scene}; }),
+               {"central_gravity", "1732.05 rad/s", "largest stable step is 0.000288675 s"}));
 }
 
 TEST(GravityGradient, OfAPointMassIsNothingAndMayNotBeAskedFor) {

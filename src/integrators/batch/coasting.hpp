@@ -11,8 +11,15 @@ struct Phase {
   S s, c, d;
 };
 
-/// As rigid_body_sim::Coasting, in the orbit's axes. A body that turns about a fixed axis is one
-/// whose phase stands still.
+/// Free rotation in equal steps. All of exactRotation() but the phase depends only on |m|, energy
+/// and step: that is worked out once, and a step is one addition theorem of sn, cn, dn and one
+/// product of complex numbers, without any trigonometric or elliptic function.
+///
+/// What is stepped is the phase on the orbit, not the momentum: the map of the momentum is unstable
+/// off its own orbit, that of the phase stays on it by construction. Nothing is read back from the
+/// attitude, so its rounding does not add up. Axes are the orbit's; E is the momentum's axis there,
+/// that of d with the momentum's sign. A body that turns about a fixed axis is one whose phase
+/// stands still.
 template <class S>
 struct Coasting {
   // Constants.

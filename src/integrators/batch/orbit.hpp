@@ -2,18 +2,20 @@
 
 #include "integrators/batch/vectors.hpp"
 
-// Free rotation by Jacobi's functions, as in orbit.hpp and jacobi.cpp beside this folder, with two
-// differences, so that packs need no cases. Axes are called d, c and 2 as there; here everything is
-// worked out as if d were body axis 3, see fromOrbit(). And where there a long step takes the
-// arithmetic-geometric mean, Carlson's form and whole periods apart, here it is halved until
-// the series hold, and doubled again by the addition theorems.
+// Free rotation by Jacobi's elliptic functions. The momentum circles around the body axis d, 1 or
+// 3, whose component never changes sign; c is the other outer axis, 2 the middle one. So that packs
+// need no cases, everything is worked out as if d were body axis 3, see fromOrbit(), and a long
+// step is halved until the series hold, and doubled again by the addition theorems.
 namespace rigid_body_sim::batch {
 namespace {
 
-/// What free rotation needs of the principal moments, see rigid_body_sim::InverseMoments.
+/// What free rotation needs of the principal moments I1 <= I2 <= I3 [kg m^2].
 template <class S>
 struct InverseMoments {
-  S a2, a13, d12, d23;
+  S a2;   ///< 1/I2 [1/(kg m^2)]
+  S a13;  ///< 1/I1 - 1/I3 [1/(kg m^2)]
+  S d12;  ///< (1/I1 - 1/I2) / a13, zero for a sphere
+  S d23;  ///< (1/I2 - 1/I3) / a13, zero for a sphere
 };
 
 template <class S>
@@ -49,15 +51,19 @@ RBS_INLINE Direction<S> directionOf(const Vector<S>& v) {
   return d;
 }
 
-/// See rigid_body_sim::Orbit. The momentum is md along the axis it circles around, mc and m2.
+/// Constants of a free rotation, for momentum of unit length and time in units of 1/(a13 |L|), so
+/// that they are pure numbers of moderate size.
 template <class S>
 struct Orbit {
   using Question = typename MaskOf<S>::Type;
   Question is_around_1;
   Question is_fixed_axis;  ///< the others' numbers are then those of no orbit, but finite
   S about;                 ///< -1 around axis 1, 1 around axis 3
-  S md, mc, m2;
-  S dc, dd, W, R, lambda, k2, kc2;
+  S md, mc, m2;            ///< the momentum
+  S dc, dd;       ///< differences of inverse moments: the middle one's to that of c and of d
+  S W, R;         ///< conserved; R = 0 on a principal axis
+  S lambda;       ///< rate of the elliptic argument
+  S k2, kc2;      ///< modulus
   S one_minus_n;  ///< |S| / W
   S n;            ///< dc / W
 };
@@ -117,6 +123,8 @@ RBS_INLINE HalfAngle<S> normalized(const HalfAngle<S>& a) {
 }
 
 /// Half of the argument of a complex number, not zero, but for its length.
+/// It is that of the root, which takes no trigonometric function: sqrt(z) is along z + |z|, and
+/// where that cancels along i (|z| - re) + im.
 template <class S>
 RBS_INLINE HalfAngle<S> rootDirection(S re, S im) {
   const S sum = root(re * re + im * im) + magnitude(re);
@@ -124,7 +132,7 @@ RBS_INLINE HalfAngle<S> rootDirection(S re, S im) {
   return {select(is_right, sum, magnitude(im)), select(is_right, im, withSign(sum, im))};
 }
 
-/// sn, cn, dn.
+/// sn, cn, dn of one argument.
 template <class S>
 struct Jacobi {
   S sn, cn, dn;
@@ -147,7 +155,7 @@ RBS_INLINE Jacobi<S> jacobiOfSmall(S u, S k2) {
   return {sn, root(1 - s2), root(1 - k2 * s2)};
 }
 
-/// Integral of sn^2 / (1 - n sn^2) from 0 to u, by the series of jacobi.cpp in x = sn^2. At
+/// Integral of sn^2 / (1 - n sn^2) from 0 to u, by its series in x = sn^2. At
 /// sn = 1/16 the first term left out is 5e-15 of the integral, which is then 1e-3 of u.
 template <class S>
 RBS_INLINE S integralOfSmall(S sn, S k2, S n) {
@@ -165,10 +173,10 @@ RBS_INLINE S integralOfSmall(S sn, S k2, S n) {
                     x * ((1.0 / 9) * c3 + x * ((1.0 / 11) * c4 + x * ((1.0 / 13) * c5))))));
 }
 
-/// What a step of an orbit takes, see rigid_body_sim::OrbitStep.
+/// What a step of an orbit takes.
 template <class S>
 struct OrbitStep {
-  Jacobi<S> f;
+  Jacobi<S> f;         ///< of its elliptic argument
   S linear;            ///< [rad] part of the slow angle that is left as an angle
   HalfAngle<S> other;  ///< and the rest of it, but for its length
 };
@@ -195,7 +203,7 @@ RBS_INLINE OrbitStep<S> doubled(const OrbitStep<S>& half, const Orbit<S>& o) {
   return whole;
 }
 
-/// @param time as there
+/// @param time the step in the orbit's own unit, any sign
 template <class S>
 RBS_INLINE OrbitStep<S> orbitStep(const Orbit<S>& o, S time) {
   S u = select(o.is_fixed_axis, S(0.0), o.lambda * time);

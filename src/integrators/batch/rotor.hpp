@@ -5,11 +5,11 @@
 namespace rigid_body_sim::batch {
 namespace {
 
-/// What a torque-free body does in some time, see rigid_body_sim::FreeRotation.
+/// What a torque-free body does in some time.
 template <class S>
 struct FreeRotation {
-  Quaternion<S> q_BBnext;
-  Vector<S> m_B;
+  Quaternion<S> q_BBnext;  ///< attitude after, in the axes before: q_WB' = q_WB q_BBnext
+  Vector<S> m_B;           ///< angular momentum after, in the body's axes after [kg m^2/s]
 };
 
 /// Half of the angle by which a body turns about its momentum, as seen along axis d and in orbit's
@@ -20,7 +20,15 @@ RBS_INLINE HalfAngle<S> slowTurn(const Orbit<S>& o, const InverseMoments<S>& a, 
   return halfAngle(o.about * (h * (a.a2 * G)) + step.linear) * step.other;
 }
 
-/// As exactRotation() beside this folder; `m_B` is not zero.
+/// The free rotation of a body with the principal moments I1 <= I2 <= I3 [kg m^2] and the angular
+/// momentum m_B [kg m^2/s] in its axes, not zero, for h [s] (any sign): exact up to rounding.
+///
+/// Jacobi's solution in addition-theorem form: momentum and attitude after h follow from those
+/// before and sn, cn, dn of one argument, without ever inverting for the phase. It works on the
+/// momentum of unit length, so that nothing over- or underflows. Every sum in it is of terms of one
+/// sign or of order one, so its error is a few roundings of the inputs' own sensitivity. Elliptic
+/// solution: Jacobi 1849; R. van Zon and J. Schofield, J. Comput. Phys. 225 (2007) 145; E.
+/// Celledoni, F. Fasso, N. Safstrom and A. Zanna, SIAM J. Sci. Comput. 30 (2008) 2084.
 template <class S>
 RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& I,
                                          const InverseMoments<S>& a, double h) {

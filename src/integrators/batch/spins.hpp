@@ -228,7 +228,9 @@ void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, do
   });
 }
 
-/// See Exact::align() in exact.cpp.
+/// Where rounding has let R m and L part by more than 1e-14 of L, the attitude is turned the
+/// shortest way back; by more than 1e-12, as after a kick that took nearly all of L, m is made
+/// anew.
 template <class S>
 RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Quaternion<S>& q_WB,
                           Vector<S>& m_B) {
