@@ -1,6 +1,7 @@
 #include "accuracy_scenes.hpp"
 #include "allocation_count.hpp"
 #include "core/suitability.hpp"
+#include "effect_blocks.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -184,6 +185,24 @@ TEST(Block, AllocatesNothingInASteadyTick) {
     const long before = allocation_count;
     for (int k = 0; k < 50; ++k) simulator.step();
     EXPECT_EQ(allocation_count, before) << is_divided;
+  }
+}
+
+TEST(Block, AllocatesNothingUnderAnyEffectWithItsBooksKept) {
+  Sampler sample(99);
+  for (auto [name, block] : blocksOf(sample)) {
+    for (const char* audit : {"false", "true"}) {
+      Simulator simulator(sceneFrom(
+          "energy_audit: " + std::string(audit) + "\neffects: {" + name + ": " + block + "}\n" +
+          "bodies:\n"
+          "  a: {mass: 1.3, inertia: [1.6, 2.1, 1.8], angular_velocity: [0.8, -0.6, 1.1]}\n"
+          "  b: {mass: 2.1, inertia: [1.2, 1.9, 2.3], linear_velocity: [0.8, -0.6, 1.1]}\n"));
+      simulator.apply(push(0, {{1, 2, -1}, {0.3, -0.1, 0.2}}));
+      for (int k = 0; k < 3; ++k) simulator.step();
+      const long before = allocation_count;
+      for (int k = 0; k < 50; ++k) simulator.step();
+      EXPECT_EQ(allocation_count, before) << name << ", audit: " << audit;
+    }
   }
 }
 #endif

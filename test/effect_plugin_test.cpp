@@ -58,6 +58,10 @@ TEST(EffectPlugin, NamesThatNoneCanHaveAreUnknownKeysOfAScene) {
   EXPECT_TRUE(contains(refusalOf("gravity\n"), {"effects.gravity\\x0a: unknown key; "}));
 }
 
+TEST(EffectPlugin, CannotHaveTheNameOfTheInputs) {
+  EXPECT_TRUE(contains(refusalOf("applied"), {"effects.applied", "wrenches from topics"}));
+}
+
 TEST(EffectPlugin, ThatIsNotThereIsNull) { EXPECT_EQ(effectPlugin("not_there"), nullptr); }
 
 TEST(EffectPlugin, ThatIsNotThereIsRefusedWithTheNameOfItsLibrary) {

@@ -7,6 +7,7 @@
 
 #include "core/effect_plugin.hpp"
 #include "effects/registry.hpp"
+#include "rigid_body_sim/simulator.hpp"
 
 namespace rigid_body_sim {
 namespace {
@@ -88,6 +89,8 @@ std::vector<EffectRow> rowsFor(const Parameters& effects) {
     const auto is_it = [&](const EffectRow& row) { return row.name == key; };
     if (key == "gyroscopic" || std::any_of(rows.begin(), rows.end(), is_it)) continue;
     if (effectPluginLibrary(key).empty()) continue;  // refused with all that are unknown
+    if (key == AppliedWrenches().name())
+      effects.refuse(key, "is what the wrenches from topics are called; no effect has that name");
     const EffectRow* row = nullptr;
     try {
       row = effectPlugin(key);
