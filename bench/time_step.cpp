@@ -11,6 +11,9 @@ namespace {
 /// time in the second and the third step: 160 ns instead of 80.
 constexpr int kWarmUp = 3;
 
+/// Of many bodies, too: a tenth of a second of simulated time is 5.
+constexpr int kFewest = 5;
+
 /// [ns] of all threads of this process, if an engine should have more than one.
 double processorTime() {
   timespec now;
@@ -23,7 +26,8 @@ double processorTime() {
 double timeStep(const Peer& peer, Eigen::Index bodies, double least_ns) {
   // A look at the clock takes some 0.3 us, a step of the fastest engine some 40 ns: a thousand
   // steps between two looks make that less than a hundredth.
-  const int chunk = static_cast<int>(std::clamp<Eigen::Index>(kLongestFlight / bodies, 1, 1000));
+  const int chunk =
+      static_cast<int>(std::clamp<Eigen::Index>(kLongestFlight / bodies, kFewest, kLongestFlight));
   double spent = 0;
   long steps = 0;
   for (int flown = kLongestFlight; spent < least_ns; flown += chunk) {

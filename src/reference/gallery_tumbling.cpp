@@ -108,7 +108,7 @@ HardCase offCentre() {
                   2'500};
   one.answer = freeFlight;
   one.must = {
-      {Measure::kPosition, 0, "a sum a step, each rounded by half an ulp of 32 m", 16 * 0x1p-52},
+      {Measure::kPosition, 4 * 0x1p-48, "four roundings of the 19 m that it goes"},
       {Measure::kMomentum, 0, "nothing acts: not a bit may change"},
       unitLength()};
   one.source = "Newton's first law; Taylor series in extended precision";
