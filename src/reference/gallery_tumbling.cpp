@@ -107,10 +107,10 @@ HardCase offCentre() {
                                      "com: [1.2, -0.7, 0.6], linear_velocity: [0.3, -0.2, 0.1]")),
                   2'500};
   one.answer = freeFlight;
-  one.must = {
-      {Measure::kPosition, 0, "the most that plain sums lose, half an ulp of 32 m a step", 16 * 0x1p-52},
-      {Measure::kMomentum, 0, "nothing acts: not a bit may change"},
-      unitLength()};
+  one.must = {{Measure::kPosition, 0, "the most that plain sums lose, half an ulp of 32 m a step",
+               16 * 0x1p-52},
+              {Measure::kMomentum, 0, "nothing acts: not a bit may change"},
+              unitLength()};
   one.source = "Newton's first law; Taylor series in extended precision";
   one.elsewhere =
       "MuJoCo, DART and Simbody (semi-explicit) keep the velocity of the link's origin: it strays "
