@@ -87,5 +87,27 @@ TEST(Bodies, AreStoredColumnByColumn) {
   EXPECT_EQ(bodies.state(2).p_WBcm, Vector3d(7, 8, 9));
 }
 
+TEST(BodyState, MovesByTheSumOfAllWaysRoundedOnce) {
+  // Position and rest together are the exact sum, but for half a rounding of each way as it is
+  // added to the rest: of ways far below the position's last bit, and of some far beyond it.
+  for (const double size : {1e-12, 1.0, 1e13}) {
+    BodyState body;
+    body.p_WBcm = {1e3, -7e2, 0.3};
+    using Exactly = Eigen::Matrix<long double, 3, 1>;
+    const Vector3d start = body.p_WBcm;
+    Exactly ways = Exactly::Zero();
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d way = size * Vector3d(1.0 / 3, -1.0 / 7, 1.0 / 11) * (i % 3 == 0 ? -0.5 : 1);
+      move(body, way);
+      ways += way.cast<long double>();
+    }
+    const Exactly rest = (start.cast<long double>() - body.p_WBcm.cast<long double>()) + ways;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LE(std::abs(body.p_low(k)), 0.5 * kEps * std::abs(body.p_WBcm(k))) << size;
+      EXPECT_NEAR(body.p_low(k), static_cast<double>(rest(k)), 1000 * 0.5 * kEps * size / 3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rigid_body_sim

@@ -158,6 +158,12 @@ TEST(SwitchEffect, RefusesWhatIsNotThereAndChangesNothing) {
   EXPECT_NEAR(simulator.state(0).P_WB.z(), -2 * 9.8 * 0.02, 1e-15);
 }
 
+TEST(SwitchEffect, OfAnEffectThatDoesNothingSaysWhy) {
+  Simulator simulator(sceneFrom(scene("exact", "gravity: {acceleration: [0, 0, 0]}")));
+  const std::string why = refusal([&] { simulator.switchEffect("gravity", true); });
+  EXPECT_TRUE(contains(why, {"'gravity' does nothing", "zero"}));
+}
+
 TEST(SwitchEffect, OfTheSpringsIsOfTheirDashpotsToo) {
   Simulator simulator(
       sceneFrom("{effects: {spring: [{body: a, anchor: [0, 0, 0], stiffness: 1, damping: 1}]}, "

@@ -107,7 +107,7 @@ bool sameBits(const Matrix& a, const Matrix& b) {
 
 inline bool sameBits(const BodyState& a, const BodyState& b) {
   return sameBits(a.p_WBcm, b.p_WBcm) && sameBits(a.q_WB.coeffs(), b.q_WB.coeffs()) &&
-         sameBits(a.P_WB, b.P_WB) && sameBits(a.L_WBcm_W, b.L_WBcm_W);
+         sameBits(a.P_WB, b.P_WB) && sameBits(a.L_WBcm_W, b.L_WBcm_W) && sameBits(a.p_low, b.p_low);
 }
 
 /// Largest difference of the components.

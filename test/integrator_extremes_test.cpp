@@ -59,6 +59,24 @@ TEST_P(IntegratorExtremes, ABodyThatIsBrakedToRestKeepsItsAttitude) {
   }
 }
 
+TEST_P(IntegratorExtremes, ABodyBrakedBelowTheSmallestNumbersIsNotTurned) {
+  if (GetParam().order_under_drag == 0 && GetParam().order != 0) return;  // refused at load
+  std::mt19937 generator(5);
+  Bodies bodies = randomBody(generator);
+  const double rate = 50;  // [1/s]
+  const auto law = [&](Real, const reference::State& at) {
+    return reference::Push{Vector3r::Zero(), Vector3r(-Real(rate) * at.L_WBcm_W)};
+  };
+  const Obeying push(law);
+  ActiveEffects braking;
+  braking.add(&push);
+  const auto integrator = make();
+  for (int i = 0; i < 600; ++i) integrator->step(bodies, braking, i * 0.02, 0.02);
+  const Quaterniond before = bodies.state(0).q_WB;  // |L| is some 1e-255 with rk4
+  for (int i = 600; i < 1500; ++i) integrator->step(bodies, braking, i * 0.02, 0.02);
+  EXPECT_LE(angleBetween(bodies.state(0).q_WB, before), 1e-12);
+}
+
 TEST_P(IntegratorExtremes, DragStopsABodyForGood) {
   if (GetParam().order_under_drag == 0 && GetParam().order != 0) return;  // refused at load
   for (const double damping : {0.3, 3.0}) {

@@ -24,7 +24,7 @@ struct Stiffness {
   double oscillation = 0;  ///< [rad/s]
   double decay = 0;        ///< [1/s]
   Eigen::Index body = 0;   ///< the stiffest one
-  bool is_linear = false;  ///< swings of any size have this frequency
+  bool is_linear = false;  ///< swings or speeds of any size have this rate
 };
 
 /// A cause of forces and torques on some of the bodies. Effects do not change once made.

@@ -104,7 +104,7 @@ struct OverTurnedBody {
 /// A body on which something acts that has become too stiff for the step.
 struct StiffBody {
   Eigen::Index body;
-  std::string why;  ///< names the effect, and the largest stable step
+  std::string why;  ///< names the effect, and the largest stable step, or what friction falsifies
 };
 
 /// Where the energy of all bodies is, and what changed it. Work is counted if the scene asks for an

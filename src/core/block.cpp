@@ -124,7 +124,9 @@ void Block::advance(Tick first, Tick ticks, double tick_s, Snapshot& before) {
 }
 
 std::optional<Fault> Block::tooStiff(double time_s, double tick_s) const {
-  return oneTooStiff(method_, effects_, Instant(bodies_, time_s), tick_s);
+  const Instant now(bodies_, time_s);
+  if (auto fault = oneTooStiff(method_, effects_, now, tick_s)) return fault;
+  return stoppedAtOnce(method_, effects_, now, tick_s);
 }
 
 void Block::freezeWhatIsNotFinite(Tick tick, const Snapshot& before) {

@@ -55,7 +55,8 @@ class Block {
   /// Its bodies that do, by their places here, in the order of the ticks.
   const std::vector<FrozenBody>& frozen() const { return frozen_; }
 
-  /// Whether ticks of `tick_s` [s] are too long by now for one of the effects by itself.
+  /// Whether ticks of `tick_s` [s] are too long by now for one of the effects by itself, to be
+  /// stable or to be right under friction.
   std::optional<Fault> tooStiff(double time_s, double tick_s) const;
 
   /// What the effects have done since the block was made.

@@ -22,7 +22,10 @@ std::vector<EffectBlock::Member> membersOf(const std::string& effect, bool scene
     const bool has_map = blocks[i].isMap(effect);
     if (!has_map && !blocks[i].boolean(effect, scene_has_it)) continue;
     if (!scene_has_it)
-      blocks[i].refuse(effect, "the scene has no such effect; list it under `effects`");
+      blocks[i].refuse(
+          effect,
+          "the scene has no such effect; list it under `effects`, with a parameter in its "
+          "block: the parameter server drops empty ones");
     members.push_back({static_cast<Eigen::Index>(i),
                        has_map ? blocks[i].child(effect)
                                : Parameters({}, "bodies." + scene.bodies[i].name + "." + effect)});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -128,11 +129,24 @@ std::string objection(const Method& method, const EffectList& effects) {
 
 namespace {
 
+/// The methods on velocities kick between the flows, and then a swing w h is bounded up to
+/// (w h)^2 = 2 (1 + exp(-x)) under a friction of x a step: 2 without, the root of 2 with any.
+constexpr double kSwingWithinFriction = 1.41;
+
+bool kicksWithinFlows(const IntegratorRow& row) {
+  return row.has_drifts && !row.keeps_angular_momentum;
+}
+
+bool isFriction(const Effect& effect) {
+  return effect.hasStableFlow() && !effect.hasReversibleFlow();
+}
+
 /// What several effects make of a body together: squares of frequencies add, and so do rates of
 /// decay.
 struct Sum {
-  double squares = 0;  // [1/s^2]
-  double decays = 0;   // [1/s]
+  double most_swing = std::numeric_limits<double>::infinity();  // [rad] a step, beside the row's
+  double squares = 0;                                           // [1/s^2]
+  double decays = 0;                                            // [1/s]
   bool is_linear = true;
   std::string names;
 
@@ -144,10 +158,20 @@ struct Sum {
     names += (names.empty() ? "'" : " and '") + effect.name() + "'";
   }
   double longest(const IntegratorRow& row) const {
-    const double max_swing = is_linear ? row.max_swing : row.max_large_swing;
-    return std::min(max_swing / std::sqrt(squares), row.max_decay / decays);
+    const double max_swing = std::min(most_swing, is_linear ? row.max_swing : row.max_large_swing);
+    // Both at once bear less than each alone: an ellipse lies within the regions of stability.
+    const double decay = decays == 0 ? 0 : decays / row.max_decay;
+    return 1 / std::hypot(std::sqrt(squares) / max_swing, decay);
   }
 };
+
+Sum emptySum(const IntegratorRow& row, const EffectList& effects) {
+  Sum sum;
+  const auto is_friction = [](const auto& effect) { return isFriction(*effect); };
+  if (kicksWithinFlows(row) && std::any_of(effects.begin(), effects.end(), is_friction))
+    sum.most_swing = kSwingWithinFriction;
+  return sum;
+}
 
 /// The effects that bound this method's step.
 EffectList forcesFor(const IntegratorRow& row, const EffectList& effects) {
@@ -158,17 +182,15 @@ EffectList forcesFor(const IntegratorRow& row, const EffectList& effects) {
 }
 
 /// Of all bodies at once; an upper bound, as each effect may have another stiffest one.
-Sum sumOf(const EffectList& forces, const Instant& now) {
-  Sum sum;
+Sum sumOf(Sum sum, const EffectList& forces, const Instant& now) {
   for (const auto& effect : forces) sum.add(*effect, effect->stiffness(now));
   return sum;
 }
 
 /// Of body i alone; effects that cannot be divided count with their stiffest body.
-Sum sumOn(Eigen::Index i, const EffectList& forces, const Instant& now) {
+Sum sumOn(Eigen::Index i, Sum sum, const EffectList& forces, const Instant& now) {
   const Bodies own = rowsOf(now.bodies(), {i});
   const Instant alone(own, now.time_s());
-  Sum sum;
   for (const auto& effect : forces) {
     const auto part = effect->restrictedTo({i});
     sum.add(*effect, part ? part->stiffness(alone) : effect->stiffness(now));
@@ -181,11 +203,13 @@ std::string wordsFor(const Sum& sum, const Method& method, double tick_s, bool e
   const bool are_many = sum.names.find(" and ") != std::string::npos;
   std::ostringstream why;
   why << sum.names << (are_many ? " together are too stiff: it " : " is too stiff: it ");
-  if (sum.squares > 0) why << "swings at " << std::sqrt(sum.squares) << " rad/s";
+  if (sum.squares > 0) why << "may swing at " << std::sqrt(sum.squares) << " rad/s";
   if (sum.squares > 0 && sum.decays > 0) why << " and ";
   if (sum.decays > 0) why << "slows down at " << sum.decays << " 1/s";
   why << "; with '" << toText(method) << "' the largest stable step is "
-      << longest * method.substeps << " s, or take " << std::ceil(tick_s / longest) << " substeps";
+      << longest * method.substeps << " s";
+  if (const double substeps = std::ceil(tick_s / longest); substeps <= kMostSubsteps)
+    why << ", or take " << substeps << " substeps";
   if (exact_bears_it) why << ", or exact, which bears any step";
   return why.str();
 }
@@ -197,7 +221,7 @@ std::optional<Fault> oneTooStiff(const Method& method, const EffectList& effects
   const IntegratorRow& row = integratorNamed(method.integrator);
   for (const auto& effect : forcesFor(row, effects)) {
     const Stiffness stiff = effect->stiffness(now);
-    Sum alone;
+    Sum alone = emptySum(row, effects);
     alone.add(*effect, stiff);
     if (tick_s > alone.longest(row) * method.substeps)
       return Fault{stiff.body, wordsFor(alone, method, tick_s, effect->hasStableFlow())};
@@ -213,9 +237,10 @@ std::optional<Fault> tooStiff(const Method& method, const EffectList& effects, c
   const auto isTooLong = [&](const Sum& sum) {
     return tick_s > sum.longest(row) * method.substeps;
   };
-  if (!isTooLong(sumOf(forces, now))) return std::nullopt;
+  const Sum empty = emptySum(row, effects);
+  if (!isTooLong(sumOf(empty, forces, now))) return std::nullopt;
   for (Eigen::Index i = 0; i < now.bodies().count(); ++i) {
-    const Sum sum = sumOn(i, forces, now);
+    const Sum sum = sumOn(i, empty, forces, now);
     if (isTooLong(sum)) return Fault{i, wordsFor(sum, method, tick_s, false)};
   }
   return std::nullopt;
@@ -265,23 +290,58 @@ std::string caution(const Method& method, const EffectList& effects) {
 
 std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
                                    const Instant& now, double tick_s) {
-  if (!integratorNamed(method.integrator).has_drifts) return std::nullopt;
+  const IntegratorRow& row = integratorNamed(method.integrator);
+  if (!row.has_drifts) return std::nullopt;
   for (const auto& effect : effects) {
-    if (!effect->hasStableFlow() || effect->hasReversibleFlow()) continue;
+    if (!isFriction(*effect)) continue;
     const Stiffness stiff = effect->stiffness(now);
     const double a_step = stiff.decay * tick_s / method.substeps;
     if (!(a_step > 1)) continue;
     // A steady force f gives f h/2 around each drift, of which exp(-x/2) is left in it; right would
-    // be f/c, with x = c h.
+    // be f/c, with x = c h. Nothing as simple holds for friction that grows with the speed, nor
+    // where the kick lies within the flows.
     const double share = 0.5 * a_step / std::sinh(0.5 * a_step);
+    const bool is_known = stiff.is_linear && !kicksWithinFlows(row);
     std::ostringstream why;
     why << "'" << effect->name() << "' slows it down at " << stiff.decay << " 1/s, " << a_step
-        << " times a step: a steady force moves it at " << 100 * share
-        << " % of the right speed then; with " << std::ceil(2 * a_step * method.substeps)
-        << " substeps at 99 %, and rk4, rk8 and adaptive have no such error";
+        << " times a step: a steady force moves it at ";
+    if (is_known)
+      why << "as little as " << 100 * share << " % of the right speed then; ";
+    else
+      why << "a wrong speed then; ";
+    if (const double substeps = std::ceil(2 * a_step * method.substeps); substeps <= kMostSubsteps)
+      why << "with " << substeps << " substeps at " << (is_known ? "99 %" : "about the right one");
+    else
+      why << "no number of substeps mends that, but a shorter step_s";
+    if (stiff.decay * tick_s <= kMostSubsteps * integratorNamed("rk4").max_decay)
+      why << "; rk4, rk8 and adaptive have no such error";
     return Fault{stiff.body, why.str()};
   }
   return std::nullopt;
+}
+
+constexpr double kLargeTurn = 0.5;  // [rad]
+
+/// Kicks before and after a drift act along the world's axes as they are then. If these turn by x
+/// in between, two halves of a kick make f h cos(x/2), where f h sin(x/2) / (x/2) is right.
+std::string turnsTooFar(const Method& method, const EffectList& effects, const Instant& now,
+                        double tick_s) {
+  if (!integratorNamed(method.integrator).has_drifts) return {};
+  for (const auto& effect : effects) {
+    if (!effect->hasTurningFlow()) continue;
+    const double turn = 0.5 * effect->stiffness(now).oscillation * tick_s / method.substeps;
+    if (!(turn > kLargeTurn)) continue;
+    std::ostringstream why;
+    why << "'" << effect->name() << "' turns by " << turn
+        << " rad a step: free flight is exact, but a steady force gives "
+        << 100 * (0.5 * turn) / std::tan(0.5 * turn) << " % of the right momentum; ";
+    if (const double substeps = std::ceil(turn * method.substeps / 0.34); substeps <= kMostSubsteps)
+      why << "with " << substeps << " substeps 99 %";
+    else
+      why << "a shorter step_s mends that";
+    return why.str();
+  }
+  return {};
 }
 
 std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,
@@ -308,6 +368,9 @@ std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies
     if (!why.empty()) throw std::invalid_argument(nameOf(fastest.body) + why);
     cautions.push_back(caution(part.method, effects));
     if (cautions.back().empty()) cautions.pop_back();
+    if (const std::string turns = turnsTooFar(part.method, effects, now, scene.step_s());
+        !turns.empty())
+      cautions.push_back(turns);
     if (const auto slow = stoppedAtOnce(part.method, effects, now, scene.step_s()))
       cautions.push_back(nameOf(slow->body) + slow->why);
   }

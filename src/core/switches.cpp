@@ -20,6 +20,10 @@ std::vector<std::string> Simulator::effectNames() const {
 Simulator::Switches Simulator::switchedTo(const std::string& name, bool is_on) const {
   const std::vector<std::string> names = effectNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
+    for (const std::string& line : scene_.elided)
+      if (line.rfind(name + ": ", 0) == 0)
+        throw std::invalid_argument("the scene's '" + name +
+                                    "' does nothing: " + line.substr(name.size() + 2));
     std::string known;
     for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
     throw std::invalid_argument("the scene has no effect '" + name + "'; there are " + known);

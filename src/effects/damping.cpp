@@ -47,7 +47,7 @@ class Damping : public Effect {
     Stiffness stiffest;
     for (const auto& [i, c] : members_) {
       const double rate = std::max(c.linear, c.angular);
-      if (rate > stiffest.decay) stiffest = {0, rate, i};
+      if (rate > stiffest.decay) stiffest = {0, rate, i, true};
     }
     return stiffest;
   }

@@ -74,7 +74,9 @@ inline void addForce(const Spring& spring, const Line& line, const Triple& f_W,
   }
 }
 
-/// The largest inverse mass [1/kg] that a force at the end can meet, in any direction.
+/// The largest inverse mass [1/kg] that a force at the end can meet, in any direction n: that of
+/// n.M^-1 n + (p x n).I^-1 (p x n). An arm along a rod's axis turns the rod across, whatever its
+/// moment about the axis.
 double lightest(const End& end, const Bodies& bodies) {
   if (end.isInWorld()) return 0;
   double inverse = 1 / bodies.mass(end.body);
@@ -82,7 +84,24 @@ double lightest(const End& end, const Bodies& bodies) {
     const Eigen::Matrix<double, 9, 1> A = bodies.inverse_mass_B.row(end.body);
     inverse = Eigen::Map<const Matrix3d>(A.data()).selfadjointView<Eigen::Lower>().eigenvalues()(2);
   }
-  return end.turns ? inverse + end.p.squaredNorm() / bodies.moments(end.body)(0) : inverse;
+  if (!end.turns) return inverse;
+  Matrix3d cross;  // p x n
+  cross << 0, -end.p.z(), end.p.y(), end.p.z(), 0, -end.p.x(), -end.p.y(), end.p.x(), 0;
+  const Matrix3d turning =
+      cross.transpose() * bodies.moments(end.body).cwiseInverse().asDiagonal() * cross;
+  return inverse + turning.selfadjointView<Eigen::Lower>().eigenvalues()(2);
+}
+
+/// Square of the frequency [1/s^2] at which the force f_W at the end swings its body about the
+/// centre of mass, as a pendulum; the torque of a small turn t is p x f -> (t x p) x f.
+double pendulumSquare(const End& end, const Turn& R_WB, const Triple& f_W, const Bodies& bodies) {
+  const Triple turned = R_WB.transposedTimes(f_W);
+  const Vector3d f_B(turned.x, turned.y, turned.z);
+  const Vector3d scale = bodies.moments(end.body).cwiseSqrt().cwiseInverse();
+  const Matrix3d stiffness = end.p.dot(f_B) * Matrix3d::Identity() -
+                             0.5 * (end.p * f_B.transpose() + f_B * end.p.transpose());
+  const Matrix3d scaled = scale.asDiagonal() * stiffness * scale.asDiagonal();
+  return scaled.selfadjointView<Eigen::Lower>().eigenvalues().cwiseAbs().maxCoeff();
 }
 
 /// What springs do together: the bodies that they act on, and the same ones among some bodies.
@@ -158,7 +177,7 @@ class ElasticSprings : public SpringEffect {
     return sum;
   }
 
-  /// No frequency is above the largest sum over one body's springs of k (1/m + r^2/I1) of both
+  /// No frequency is above the largest sum over one body's springs of k times lightest() of both
   /// ends: the columns' norm of M^-1 K bounds its eigenvalues (Horn and Johnson, Matrix Analysis,
   /// 1985, 5.6.9). What the present force turns an end's own body by, as a pendulum, comes on top.
   Stiffness stiffness(const Instant& now) const override {
@@ -171,11 +190,11 @@ class ElasticSprings : public SpringEffect {
       const double own =
           spring.stiffness * (lightest(spring.ends[0], bodies) + lightest(spring.ends[1], bodies));
       const Triple pulled = spring.actsAt(line.length) ? pull(spring, line) : Triple(0, 0, 0);
-      const double force = std::sqrt(dot(pulled, pulled));
-      for (const End& end : spring.ends) {
+      for (int k = 0; k < 2; ++k) {
+        const End& end = spring.ends[k];
         if (end.isInWorld()) continue;
         squares(end.body) += own;
-        if (end.turns) squares(end.body) += force * end.p.norm() / bodies.moments(end.body)(0);
+        if (end.turns) squares(end.body) += pendulumSquare(end, line.R_WB[k], pulled, bodies);
       }
     }
     Eigen::Index stiffest = 0;
@@ -257,7 +276,7 @@ class SpringDamping : public SpringEffect {
     }
     Eigen::Index stiffest = 0;
     const double rate = rates.maxCoeff(&stiffest);
-    return {0, rate, stiffest};
+    return {0, rate, stiffest, true};
   }
 
   std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {

@@ -26,6 +26,9 @@ inline Vector3d scaled(const Vector3d& v) {
   return {std::scalbn(v.x(), exponent), std::scalbn(v.y(), exponent), std::scalbn(v.z(), exponent)};
 }
 
+/// Denormal numbers have lost digits: a vector of them has no direction.
+constexpr double kLeastDirected = 1e-290;
+
 /// Ends a step of `body`, which is at its beginning, at the attitude q_WB and the momentum m_B.
 /// `L_W` is what the world's torques have summed up to: the shortest turn of the body brings R m
 /// onto it. So the angular momentum of free flight stays the same to the bit, and no error of m
@@ -41,7 +44,8 @@ inline void setRotation(Gyroscopic gyroscopic, BodyState& body, const Quaternion
   }
   const double start = body.L_WBcm_W.lpNorm<Eigen::Infinity>();
   body.L_WBcm_W = L_W;
-  if (!(L_W.lpNorm<Eigen::Infinity>() > 0.1 * start) || m_B.isZero(0)) return;
+  const double left = L_W.lpNorm<Eigen::Infinity>();
+  if (!(left > 0.1 * start) || !(left > kLeastDirected) || m_B.isZero(0)) return;
   Vector3d now = body.q_WB * m_B, wanted = L_W;
   double size = m_B.norm() * L_W.norm();
   if (std::isnan(size)) return;            // the body will be frozen

@@ -22,6 +22,9 @@ struct Rotation {
   Vector<S> L_W;
 };
 
+/// As in body_momentum.hpp.
+constexpr double kLeastDirected = 1e-290;
+
 /// setRotation() of body_momentum.hpp: `q_WB`, of unit length but for rounding, turned so that R m
 /// comes onto L, where L is not merely what is left of `before`.
 template <class S>
@@ -44,7 +47,9 @@ RBS_INLINE Quaternion<S> aligned(const Quaternion<S>& q_WB, const Vector<S>& m_B
   const S length = root(squaredNorm(turned));
   const auto is_still = isZero(m_B);
   const S safe = select(length == 0, S(1.0), length);
-  const auto turns = (largest(L_W) > 0.1 * largest(before)) & (cosine > 0.9999 * size) & !is_still;
+  const S left = largest(L_W);
+  const auto is_directed = (left > 0.1 * largest(before)) & (left > kLeastDirected);
+  const auto turns = is_directed & (cosine > 0.9999 * size) & !is_still;
   return select(turns, scaled(1 / safe, turned), q_WB);
 }
 
