@@ -281,6 +281,18 @@ TEST(AddedMass, InTheTensorAloneNeedsNoEffect) {
   EXPECT_TRUE(contains(none.elided.at(0), {"added_mass: no body has"}));
 }
 
+TEST(AddedMass, FarAwayNoWayIsLostInThePositionsLastBit) {
+  for (const std::string integrator : {"exact", "rk4", "rk8", "semi_implicit"}) {
+    Simulator simulator(sceneFrom(
+        "{integrator: " + integrator + ", effects: {added_mass: {linear: [0, 0, 0]}}, " +
+        "bodies: {fish: {mass: 1, inertia: [1, 1.3, 2.1], added_mass: {linear: [1, 3, 6]}, "
+        "position: [1.0e+9, -1.0e+9, 1.0e+9], linear_velocity: [1.0e-6, -1.0e-6, 1.0e-6]}}}"));
+    simulator.advance(1000);
+    for (int k = 0; k < 3; ++k)  // 168 times the last bit
+      EXPECT_NEAR(std::abs(simulator.state(0).p_WBcm(k)), 1e9 + 2e-5, 0x1p-23) << integrator;
+  }
+}
+
 TEST(AddedMass, RestrictedToSomeBodiesIsTheSame) {
   const Scene scene = sceneFrom("{bodies: {" + genericBodyNamed("a", ", added_mass: false") + ", " +
                                 otherBodyNamed("b") + ", " + genericBodyNamed("c") +

@@ -110,6 +110,24 @@ TEST_F(BatchSteps, OfExactAreThoseOfOneBody) {
   EXPECT_LE(difference(bodies, byIntegrator("exact", start, &pushes)), kRounding);
 }
 
+TEST_F(BatchSteps, OfPositionsAreThoseOfOneBodyToTheBit) {
+  // Ways far below the positions' last bits, and far beyond.
+  for (const double size : {1e-14, 1.0, 1e14}) {
+    bodies.P_WB = size * start.P_WB;
+    Bodies alone = bodies;
+    for (int step = 0; step < kSteps; ++step) {
+      k.driftPositions(columns, kStep, all);
+      for (Eigen::Index i = 0; i < alone.count(); ++i) {
+        BodyState body = alone.state(i);
+        move(body, (kStep / alone.mass(i)) * body.P_WB);
+        alone.setState(i, body);
+      }
+    }
+    EXPECT_TRUE(sameBits(bodies.p_WBcm, alone.p_WBcm)) << size;
+    EXPECT_TRUE(sameBits(bodies.p_low, alone.p_low)) << size;
+  }
+}
+
 TEST_F(BatchSteps, OfExactTakeUpWhatSomebodyElseHasMoved) {
   std::vector<double> tiles(tileSize(19, kSpinNumbers));
   const auto fly = [&](int steps) {
