@@ -13,6 +13,7 @@
 #include "rigid_body_sim/simulator.hpp"
 #include "tools/accuracy_report/digest.hpp"
 #include "tools/accuracy_report/own_method.hpp"
+#include "tools/csv.hpp"
 
 namespace rigid_body_sim::report {
 namespace {
@@ -115,24 +116,6 @@ std::string wrapped(const std::string& sentence) {
 
 // ---- CSV
 
-std::ofstream open(const std::string& folder, const std::string& name) {
-  std::ofstream file(folder + "/" + name);
-  if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
-  return file;
-}
-
-void close(std::ofstream& file, const std::string& folder) {
-  file.close();
-  if (!file) throw std::invalid_argument(folder + ": the disk is full, or it cannot be written to");
-}
-
-/// Quoted, as sentences have commas.
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
-}
-
 /// One number of CSV, with all its digits; empty for none.
 std::string csv(double number) { return std::isnan(number) ? "" : text(number, 17); }
 
@@ -162,7 +145,7 @@ Eigen::Index fastestBody(const Bodies& start) {
 }
 
 void writeCase(const Report& report, const std::string& folder) {
-  std::ofstream file = open(folder, "case.csv");
+  std::ofstream file = openCsv(folder, "case.csv");
   const Eigen::Index shown = report.shown;
   const Bodies& start = report.truth.trajectory.samples.front();
   const Eigen::Index fastest = fastestBody(start);
@@ -180,11 +163,11 @@ void writeCase(const Report& report, const std::string& folder) {
        << "\nI1_kg_m2," << csv(I(0)) << "\nI2_kg_m2," << csv(I(1)) << "\nI3_kg_m2," << csv(I(2))
        << "\n";
   for (const std::string& sentence : digest(report)) file << "digest," << quoted(sentence) << "\n";
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 void writeMethods(const Report& report, const std::string& folder) {
-  std::ofstream file = open(folder, "methods.csv");
+  std::ofstream file = openCsv(folder, "methods.csv");
   file << "rung,substeps,tolerance,outcome,why,attitude_max,attitude_end,position_max,position_end,"
           "energy_max,energy_end,momentum_max,momentum_end,evaluations,instructions,cost_median,"
           "cost_least,real_time_factor,is_on_front\n";
@@ -205,7 +188,7 @@ void writeMethods(const Report& report, const std::string& folder) {
          << (has_errors ? csv(row.cost.least_ns) : "") << ','
          << (has_errors ? csv(realTimeFactor(report, row)) : "") << ',' << row.is_on_front << '\n';
   }
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 void writeSample(std::ostream& file, const Method& method, const ErrorSample& sample) {
@@ -218,7 +201,7 @@ void writeSample(std::ostream& file, const Method& method, const ErrorSample& sa
 }
 
 void writeFlights(const Report& report, const std::string& folder) {
-  std::ofstream file = open(folder, "flights.csv");
+  std::ofstream file = openCsv(folder, "flights.csv");
   file << "rung,substeps,time_s,attitude,position,energy,momentum,body_attitude,qx,qy,qz,qw\n";
   const Trajectory& truth = report.truth.trajectory;
   for (std::size_t k = 0; k < truth.samples.size(); ++k) {
@@ -232,7 +215,7 @@ void writeFlights(const Report& report, const std::string& folder) {
     last = row.method.integrator;
     for (const ErrorSample& sample : row.flight.samples) writeSample(file, row.method, sample);
   }
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 }  // namespace
@@ -274,9 +257,9 @@ void writeCsv(const Report& report, const std::string& folder) {
   writeMethods(report, folder);
   writeFlights(report, folder);
   if (!report.effects) return;
-  std::ofstream file = open(folder, "effects.csv");
+  std::ofstream file = openCsv(folder, "effects.csv");
   writeCsv(*report.effects, file);
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 }  // namespace rigid_body_sim::report

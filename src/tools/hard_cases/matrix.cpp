@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "tools/csv.hpp"
 #include "tools/hard_cases/text.hpp"
 
 namespace rigid_body_sim::hard_cases {
@@ -54,7 +55,7 @@ std::string boundInWords(const Bound& bound) {
 }
 
 void writeCases(const std::vector<Cell>& cells, const std::string& folder) {
-  std::ofstream file = open(folder, "cases.csv");
+  std::ofstream file = openCsv(folder, "cases.csv");
   file << "case,what,ticks,step_s,measure,unit,bound,bound_in_words,why,source,elsewhere\n";
   const HardCase* last = nullptr;
   for (const Cell& cell : cells) {
@@ -71,7 +72,7 @@ void writeCases(const std::vector<Cell>& cells, const std::string& folder) {
          << quoted(boundInWords(bound)) << ',' << quoted(bound.why) << ',' << quoted(last->source)
          << ',' << quoted(last->elsewhere) << '\n';
   }
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 void printBroken(const std::vector<Cell>& cells, std::ostream& out) {
@@ -127,7 +128,7 @@ void print(const std::vector<Cell>& cells, std::ostream& out) {
 
 void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
   writeCases(cells, folder);
-  std::ofstream file = open(folder, "cells.csv");
+  std::ofstream file = openCsv(folder, "cells.csv");
   file << "case,rung,outcome,claim,keeps_claim,measure,unit,error,bound,end_s,wall_s,why\n";
   for (const Cell& cell : cells) {
     const reference::Verdict& verdict = cell.verdict;
@@ -141,7 +142,7 @@ void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
          << ',' << text(cell.wall_s, 3) << ','
          << quoted(verdict.why.empty() ? cell.claim.why : verdict.why) << '\n';
   }
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 }  // namespace rigid_body_sim::hard_cases

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tools/child_process.hpp"
+#include "tools/csv.hpp"
 #include "tools/hard_cases/text.hpp"
 
 namespace rigid_body_sim::hard_cases {
@@ -207,7 +208,7 @@ void print(const std::vector<PeerCell>& cells, std::ostream& out) {
 }
 
 void writeCsv(const std::vector<PeerCell>& cells, const std::string& folder) {
-  std::ofstream file = open(folder, "peers.csv");
+  std::ofstream file = openCsv(folder, "peers.csv");
   file << "case,engine,fate,says,measure,unit,error,bound,energy_change,momentum_error,end_s,why\n";
   for (const PeerCell& cell : cells) {
     const Verdict& verdict = cell.verdict;
@@ -221,7 +222,7 @@ void writeCsv(const std::vector<PeerCell>& cells, const std::string& folder) {
          << text(verdict.energy_change, 17) << ',' << text(verdict.momentum_error, 17) << ','
          << text(verdict.end_s, 12) << ',' << quoted(verdict.why) << '\n';
   }
-  close(file, folder);
+  closeCsv(file, folder);
 }
 
 }  // namespace rigid_body_sim::hard_cases

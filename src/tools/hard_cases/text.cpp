@@ -1,6 +1,5 @@
 #include "tools/hard_cases/text.hpp"
 
-#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
@@ -46,24 +45,6 @@ std::size_t shownOf(const reference::Verdict& verdict) {
   for (std::size_t k = 0; k < verdict.errors.size(); ++k)
     if (verdict.errors[k] > verdict.bounds[k]) return k;
   return 0;
-}
-
-std::ofstream open(const std::string& folder, const std::string& name) {
-  std::filesystem::create_directories(folder);
-  std::ofstream file(folder + "/" + name);
-  if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
-  return file;
-}
-
-void close(std::ofstream& file, const std::string& folder) {
-  file.close();
-  if (!file) throw std::invalid_argument(folder + ": the disk is full, or it cannot be written to");
-}
-
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char c : text) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + doubled + '"';
 }
 
 }  // namespace rigid_body_sim::hard_cases
