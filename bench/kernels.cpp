@@ -103,7 +103,11 @@ void addAll(const Kernels& k) {
   });
   add("no_gyro/" + name,
       [&k](Scene& s, Range r) { k.driftWithoutGyroscopicTerm(s.bodies(), kStep, r); });
-  add("rk4_free/" + name, [&k](Scene& s, Range r) { k.rk4Free(s.bodies(), kStep, r); });
+  add("rk4_free/" + name, [&k](Scene& s, Range r) { k.rk4Steady(s.bodies(), nullptr, kStep, r); });
+  add("rk4_steady/" + name, [&k](Scene& s, Range r) {
+    const WrenchColumns wrenches = s.wrenches();
+    k.rk4Steady(s.bodies(), &wrenches, kStep, r);
+  });
   add("rk4/" + name, [&k](Scene& s, Range r) {
     for (int stage = 0; stage < 4; ++stage)
       k.rk4Stage(s.bodies(), s.stages(), s.wrenches(), s.tiles.data(), stage, kStep, r);

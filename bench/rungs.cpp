@@ -9,12 +9,13 @@
 namespace rigid_body_sim::bench {
 namespace {
 
-/// What a program that pushes its bodies itself would write.
+/// What a program that pushes its bodies itself would write; as held inputs are.
 class Pushes : public Effect {
  public:
   explicit Pushes(Wrenches wrenches) : wrenches_(std::move(wrenches)) {}
   std::string name() const override { return "pushes"; }
   std::size_t bodyCount() const override { return static_cast<std::size_t>(wrenches_.f_W.rows()); }
+  bool isSteady() const override { return true; }
   void addWrenches(const Instant&, Wrenches& wrenches) const override {
     wrenches.f_W += wrenches_.f_W;
     wrenches.t_Bcm_W += wrenches_.t_Bcm_W;

@@ -60,9 +60,18 @@ std::vector<Work> works() {
                                Range r) { k.driftBySplitting(b, &w, h, r); }),
       repeated("NoGyroscopicTerm", [](auto& k, auto& b, auto&, double h,
                                       Range r) { k.driftWithoutGyroscopicTerm(b, h, r); }),
-      repeated("Rk4Free", [](auto& k, auto& b, auto&, double h, Range r) { k.rk4Free(b, h, r); }),
-      repeated("Rk4FreeNoGyroscopicTerm", [](auto& k, auto& b, auto&, double h,
-                                             Range r) { k.rk4FreeWithoutGyroscopicTerm(b, h, r); }),
+      repeated("Rk4Free",
+               [](auto& k, auto& b, auto&, double h, Range r) { k.rk4Steady(b, nullptr, h, r); }),
+      repeated("Rk4FreeNoGyroscopicTerm",
+               [](auto& k, auto& b, auto&, double h, Range r) {
+                 k.rk4SteadyWithoutGyroscopicTerm(b, nullptr, h, r);
+               }),
+      repeated("Rk4Steady",
+               [](auto& k, auto& b, auto& w, double h, Range r) { k.rk4Steady(b, &w, h, r); }),
+      repeated("Rk4SteadyNoGyroscopicTerm",
+               [](auto& k, auto& b, auto& w, double h, Range r) {
+                 k.rk4SteadyWithoutGyroscopicTerm(b, &w, h, r);
+               }),
       {"Rk4",
        [](auto& k, auto& b, auto& w, double h, Range r) { rk4Steps(k.rk4Stage, b, w, h, r); }},
       {"Rk4WithVelocity", [](auto& k, auto& b, auto& w, double h,
@@ -126,6 +135,24 @@ TEST_P(BatchKernels, LeaveBodiesOutsideTheRangeAlone) {
             << k.name << " " << i;
       }
     }
+}
+
+TEST(Rk4Steady, HasTheBitsOfItsStages) {
+  constexpr Eigen::Index kCount = 150;
+  const Bodies start = someBodies(kCount);
+  Pushes forces = somePushes(kCount);
+  forces.t_Bcm_W.setZero();
+  for (const Kernels& k : availableKernels())
+    for (const Pushes& pushes : {somePushes(kCount), forces})
+      for (const auto& [stages, whole] :
+           {std::pair{k.rk4Stage, k.rk4Steady},
+            std::pair{k.rk4StageWithoutGyroscopicTerm, k.rk4SteadyWithoutGyroscopicTerm}}) {
+        Bodies by_stages = start, at_once = start;
+        rk4Steps(stages, by_stages, pushes, 0.02, {0, kCount});
+        const WrenchColumns wrenches = columnsOf(pushes);
+        for (int i = 0; i < kSteps; ++i) whole(columnsOf(at_once), &wrenches, 0.02, {0, kCount});
+        EXPECT_TRUE(sameNumbers(at_once, by_stages)) << k.name;
+      }
 }
 
 TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {

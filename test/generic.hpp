@@ -110,6 +110,12 @@ inline bool sameBits(const BodyState& a, const BodyState& b) {
          sameBits(a.P_WB, b.P_WB) && sameBits(a.L_WBcm_W, b.L_WBcm_W) && sameBits(a.p_low, b.p_low);
 }
 
+inline bool sameBits(const Bodies& a, const Bodies& b) {
+  for (Eigen::Index i = 0; i < a.count(); ++i)
+    if (!sameBits(a.state(i), b.state(i))) return false;
+  return a.count() == b.count();
+}
+
 /// Largest difference of the components.
 template <class A, class B>
 double difference(const A& a, const B& b) {

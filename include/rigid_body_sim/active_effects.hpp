@@ -11,15 +11,16 @@ namespace rigid_body_sim {
 /// What an effect has done so far.
 struct EffectCount {
   std::string name;
-  std::uint64_t evaluations = 0;  ///< of one body each
+  std::uint64_t evaluations = 0;  ///< of one body each; those of steady effects are counted too
   double work_J = 0;              ///< done on the bodies, if it is audited and not conservative [J]
 };
 
 /// Adds `more` to the counts of the same names.
 void addUp(const std::vector<EffectCount>& more, std::vector<EffectCount>& counts);
 
-/// The effects that act now. One virtual call an effect and evaluation; an effect that is not in
-/// the list costs nothing at all.
+/// The effects that act now on a set of bodies, which stay the same with their masses. One virtual
+/// call an effect and evaluation, none if all are steady; an effect that is not in the list costs
+/// nothing at all.
 class ActiveEffects {
  public:
   void add(const Effect* effect);
@@ -29,6 +30,9 @@ class ActiveEffects {
   bool hasKicks() const { return !kicks_.empty(); }
   bool hasFlows() const { return !flows_.empty(); }
 
+  /// Whether all wrenches of a step are those at its beginning, and none is audited.
+  bool areSteady() const;
+
   /// Whether somebody looks at the velocities at which effects are evaluated.
   bool needVelocities() const { return is_audited_ || depend_on_velocity_; }
 
@@ -36,6 +40,9 @@ class ActiveEffects {
   /// sum of what they evaluate.
   /// @param weight_s what the step multiplies these wrenches by, for the audit [s]
   const Wrenches& evaluate(const Bodies& bodies, double time_s, double weight_s = 0);
+
+  /// The same where all are steady, taken as so many evaluations.
+  const Wrenches& evaluateSteady(const Bodies& bodies, double time_s, unsigned times);
 
   /// The sum of the effects without a flow; valid until the next call. For methods that give the
   /// momentum at once.
@@ -68,7 +75,8 @@ class ActiveEffects {
     double pending_J = 0;  // of a step that is not taken yet
   };
 
-  void addUp(std::vector<Entry>& entries);
+  void addUpKicks(unsigned times);
+  void addUpFlows();
   void hasFlowed(const Effect& effect);
   template <class Flow>
   void audited(Entry& entry, Bodies& bodies, Flow flow);
@@ -81,7 +89,9 @@ class ActiveEffects {
   std::vector<EffectCount> past_;  // of those that were removed
   Instant instant_;
   Wrenches sum_;
-  Wrenches one_;  // of one effect, for the audit
+  bool is_kept_ = false;    // sum_ is that of the kicks, which are steady
+  bool are_steady_ = true;  // the kicks
+  Wrenches one_;            // of one effect, for the audit
   bool is_audited_ = false;
   bool depend_on_velocity_ = false;
 };

@@ -56,6 +56,10 @@ class Effect {
   /// not tell the angular momenta within its steps: they are no numbers there.
   virtual bool dependsOnVelocity() const { return false; }
 
+  /// Whether its wrenches depend neither on the bodies' states nor on time. Where all that act are
+  /// so, they are worked out once, and not at every step.
+  virtual bool isSteady() const { return false; }
+
   /// Whether all its work comes out of its potential energy.
   virtual bool isConservative() const { return false; }
 

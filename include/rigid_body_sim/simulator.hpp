@@ -66,6 +66,7 @@ class AppliedWrenches : public Effect {
  public:
   std::string name() const override { return "applied"; }
   std::size_t bodyCount() const override { return acting_.size(); }
+  bool isSteady() const override;
   void addWrenches(const Instant& now, Wrenches& wrenches) const override;
   std::shared_ptr<const Effect> restrictedTo(
       const std::vector<Eigen::Index>& bodies) const override;
@@ -174,7 +175,8 @@ class Simulator {
   /// bodies that do not say of it themselves, from this tick on; until the next reset.
   /// @returns whether that changed anything
   /// @throws std::invalid_argument for an effect that the scene does not have, if a method does not
-  /// bear it, or if the scene has an accuracy budget; nothing is changed then.
+  /// bear it, or if the scene has an accuracy budget; nothing is changed then. What there is to
+  /// caution about comes after the scene's own warnings, until the next switch.
   bool switchEffect(const std::string& name, bool is_on);
 
   /// What switchEffect() takes: the blocks below `effects`, and `gyroscopic`.
@@ -261,6 +263,7 @@ class Simulator {
   };
   Switches switchedTo(const std::string& name, bool is_on) const;
   Switches at_start_;
+  std::size_t start_warnings_ = 0;  // the scene's own, and those of its methods
   std::vector<EffectCount> counts_;  // of blocks that are no more
   double initial_energy_J_ = 0;
   double start_energy_J_ = 0;  // and the potential energy that effects brought or took since

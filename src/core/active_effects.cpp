@@ -15,6 +15,8 @@ void ActiveEffects::add(const Effect* effect) {
   depend_on_velocity_ = depend_on_velocity_ || effect->dependsOnVelocity();
   if (effect->flowOrder() == 0) {
     kicks_.push_back({effect});
+    are_steady_ = are_steady_ && effect->isSteady();
+    is_kept_ = false;
     return;
   }
   const auto is_innermost = [](const Entry& entry) { return entry.effect->hasInnermostFlow(); };
@@ -32,6 +34,9 @@ void ActiveEffects::remove(const Effect* effect) {
         rigid_body_sim::addUp({{effect->name(), entry.evaluations, entry.work_J}}, past_);
     entries->erase(std::remove_if(entries->begin(), entries->end(), is_it), entries->end());
   }
+  const auto is_steady = [](const Entry& entry) { return entry.effect->isSteady(); };
+  are_steady_ = std::all_of(kicks_.begin(), kicks_.end(), is_steady);
+  is_kept_ = false;
   const auto depends = [](const Entry& entry) { return entry.effect->dependsOnVelocity(); };
   depend_on_velocity_ = std::any_of(kicks_.begin(), kicks_.end(), depends) ||
                         std::any_of(flows_.begin(), flows_.end(), depends);
@@ -50,18 +55,41 @@ void addUp(const std::vector<EffectCount>& more, std::vector<EffectCount>& count
   }
 }
 
-void ActiveEffects::addUp(std::vector<Entry>& entries) {
-  for (Entry& entry : entries) {
+bool ActiveEffects::areSteady() const {
+  const auto is_conservative = [](const Entry& entry) { return entry.effect->isConservative(); };
+  return are_steady_ && flows_.empty() &&
+         (!is_audited_ || std::all_of(kicks_.begin(), kicks_.end(), is_conservative));
+}
+
+/// The sum of the kicks; if it is steady, that of the last time.
+void ActiveEffects::addUpKicks(unsigned times) {
+  const Eigen::Index count = instant_.bodies().count();
+  if (!is_kept_ || sum_.f_W.rows() != count) {
+    sum_.setZero(count);
+    for (const Entry& entry : kicks_) entry.effect->addWrenches(instant_, sum_);
+    is_kept_ = are_steady_;
+  }
+  for (Entry& entry : kicks_) entry.evaluations += times * entry.effect->bodyCount();
+}
+
+void ActiveEffects::addUpFlows() {
+  is_kept_ = is_kept_ && flows_.empty();
+  for (Entry& entry : flows_) {
     entry.effect->addWrenches(instant_, sum_);
     entry.evaluations += entry.effect->bodyCount();
   }
 }
 
+const Wrenches& ActiveEffects::evaluateSteady(const Bodies& bodies, double time_s, unsigned times) {
+  instant_.set(bodies, time_s);
+  addUpKicks(times);
+  return sum_;
+}
+
 const Wrenches& ActiveEffects::evaluate(const Bodies& bodies, double time_s, double weight_s) {
   instant_.set(bodies, time_s);
-  sum_.setZero(bodies.count());
-  addUp(kicks_);
-  addUp(flows_);
+  addUpKicks(1);
+  addUpFlows();
   if (is_audited_) {
     auditStage(kicks_, weight_s);
     auditStage(flows_, weight_s);
@@ -71,8 +99,7 @@ const Wrenches& ActiveEffects::evaluate(const Bodies& bodies, double time_s, dou
 
 const Wrenches& ActiveEffects::evaluateKicks(const Bodies& bodies, double time_s, double weight_s) {
   instant_.set(bodies, time_s);
-  sum_.setZero(bodies.count());
-  addUp(kicks_);
+  addUpKicks(1);
   if (is_audited_) auditKicks(weight_s);
   return sum_;
 }

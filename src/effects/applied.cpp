@@ -23,6 +23,15 @@ void AppliedWrenches::addWrenches(const Instant& now, Wrenches& wrenches) const 
   }
 }
 
+/// Those in world axes that do not force the body at a point that turns with it. It holds until the
+/// next update().
+bool AppliedWrenches::isSteady() const {
+  const Triple none(0, 0, 0);
+  return std::all_of(acting_.begin(), acting_.end(), [&](const Acting& one) {
+    return one.axes == Axes::kWorld && (one.p_BcmQ_B == none || one.f == none);
+  });
+}
+
 std::shared_ptr<const Effect> AppliedWrenches::restrictedTo(
     const std::vector<Eigen::Index>& bodies) const {
   auto restricted = std::make_shared<AppliedWrenches>();

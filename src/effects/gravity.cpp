@@ -16,6 +16,7 @@ class UniformGravity : public Effect {
 
   std::string name() const override { return "gravity"; }
   std::size_t bodyCount() const override { return members_.size(); }
+  bool isSteady() const override { return true; }
   bool isConservative() const override { return true; }
 
   void addWrenches(const Instant& now, Wrenches& wrenches) const override {

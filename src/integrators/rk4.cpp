@@ -47,17 +47,22 @@ class Rk4 : public Integrator {
   explicit Rk4(const IntegratorOptions& options) : ungyroscopic_(options.ungyroscopic) {}
 
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
-    if (effects.empty()) return stepFree(bodies, h);
+    if (effects.empty()) return stepSteadily(bodies, nullptr, h);
+    if (effects.areSteady() && !bodies.hasAddedMass()) {
+      const batch::WrenchColumns wrenches =
+          columnsOf(effects.evaluateSteady(bodies, time_s, kStages));
+      return stepSteadily(bodies, &wrenches, h);
+    }
     const bool with_velocity = effects.needVelocities();
     begin(bodies, with_velocity);
     constexpr double c[] = {0, 0.5, 0.5, 1};
     constexpr double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    for (int s = 0; s < 4; ++s) {
+    for (int s = 0; s < kStages; ++s) {
       const Wrenches& wrenches =
           effects.evaluate(s == 0 ? bodies : stage_, time_s + c[s] * h, b[s] * h);
       if (bodies.hasAddedMass()) path_.add(effects.instant().v_WBcm(), b[s]);
       endStage(bodies, wrenches, with_velocity, s, h);
-      if (bodies.hasAddedMass() && s < 3)
+      if (bodies.hasAddedMass() && s < kStages - 1)
         path_.moveStage(stage_, effects.instant().v_WBcm(), c[s + 1] * h);
     }
     if (bodies.hasAddedMass()) path_.end(bodies, h);
@@ -76,12 +81,13 @@ class Rk4 : public Integrator {
     path_.begin(bodies);
   }
 
-  void stepFree(Bodies& bodies, double h) {
+  /// @param wrenches of all stages; null for none
+  void stepSteadily(Bodies& bodies, const batch::WrenchColumns* wrenches, double h) const {
     const batch::BodyColumns columns = columnsOf(bodies);
     ungyroscopic_.forRuns(bodies.count(), [&](batch::Range range, Gyroscopic gyroscopic) {
-      const auto step =
-          gyroscopic == Gyroscopic::kOn ? kernels_.rk4Free : kernels_.rk4FreeWithoutGyroscopicTerm;
-      step(columns, h, range);
+      const auto step = gyroscopic == Gyroscopic::kOn ? kernels_.rk4Steady
+                                                      : kernels_.rk4SteadyWithoutGyroscopicTerm;
+      step(columns, wrenches, h, range);
     });
   }
 
@@ -95,6 +101,8 @@ class Rk4 : public Integrator {
       stage(columns, stages, columnsOf(wrenches), tiles_.data(), s, h, range);
     });
   }
+
+  static constexpr int kStages = 4;
 
   const batch::Kernels& kernels_ = batch::kernels();
   Ungyroscopic ungyroscopic_;

@@ -34,8 +34,10 @@ struct Kernels {
   using Rk4Stage = void (*)(const BodyColumns& bodies, const BodyColumns& stages,
                             const WrenchColumns&, double* tiles, int stage, double h, Range);
   Rk4Stage rk4Stage, rk4StageWithVelocity, rk4StageWithoutGyroscopicTerm;
-  void (*rk4Free)(const BodyColumns&, double h, Range);  ///< a step without effects
-  void (*rk4FreeWithoutGyroscopicTerm)(const BodyColumns&, double h, Range);
+
+  /// The whole step under wrenches that are the same at each stage; null for none. The same bits.
+  using Rk4Steady = void (*)(const BodyColumns&, const WrenchColumns*, double h, Range);
+  Rk4Steady rk4Steady, rk4SteadyWithoutGyroscopicTerm;
 
   // Kicks and exact free flight, with `tiles` of kSpinNumbers. Both take up first the bodies whose
   // attitude or angular momentum somebody else has changed.

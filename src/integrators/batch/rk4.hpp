@@ -15,6 +15,13 @@ RBS_INLINE Vector<S> momentumRate(const Vector<S>& m_B, const Vector<S>& w_B,
   return t_B;
 }
 
+/// A torque in body axes; none is +0 whatever the attitude, as where none is computed.
+template <class S>
+RBS_INLINE Vector<S> torqueInBody(const Quaternion<S>& q_WB, const Vector<S>& t_W) {
+  const Vector<S> t_B = rotatedBack(q_WB, t_W);
+  return {t_B.x + 0.0, t_B.y + 0.0, t_B.z + 0.0};
+}
+
 /// Attitude and angular momentum at the end of a step.
 template <class S>
 struct Rotation {
@@ -179,7 +186,7 @@ RBS_INLINE void rk4TurnAt(const Place& at, const BodyColumns& bodies, const Body
     a = tile.loadVector(kInverseI);
   }
   k.w_B = product(a, m_B);
-  k.m_rate_B = momentumRate<gyroscopic>(m_B, k.w_B, rotatedBack(q_WB, k.t_W));
+  k.m_rate_B = momentumRate<gyroscopic>(m_B, k.w_B, torqueInBody(q_WB, k.t_W));
   if constexpr (stage == 0) tile.storeVector(kStartRate, k.w_B);
   if constexpr (stage < 3)
     beginNext<sight, stage>(at, bodies, stages, tile, k, m0_B, h);
@@ -216,39 +223,6 @@ void rk4Stage(const BodyColumns& bodies, const BodyColumns& stages, const Wrench
     rk4StageOf<S, gyroscopic, sight, 2>(bodies, stages, wrenches, tiles, h, range);
   else
     rk4StageOf<S, gyroscopic, sight, 3>(bodies, stages, wrenches, tiles, h, range);
-}
-
-/// Without effects no stage needs an attitude.
-template <class S, bool gyroscopic>
-void rk4Free(const BodyColumns& of, double h, Range range) {
-  const BodyColumns bodies = of;
-  forPacks<S>(range.begin, range.end, [=](const auto& at) {
-    using T = NumberOf<decltype(at)>;
-    const std::ptrdiff_t n = bodies.stride;
-    driftPosition(at, bodies, loadVector(at, bodies.P_WB, n), h);
-    const Rotation<T> before = {loadQuaternion(at, bodies.q_WB, n),
-                                loadVector(at, bodies.L_WBcm_W, n)};
-    const auto is_still = isZero(before.L_W);
-    if (all(is_still)) return;
-    const auto I = loadVector(at, bodies.I_BBcm_B, n);
-    const Vector<T> a = {1 / I.x, 1 / I.y, 1 / I.z};
-    const Vector<T> m = rotatedBack(before.q_WB, before.L_W);
-    const Vector<T> none = {T(0.0), T(0.0), T(0.0)};
-    const auto rate = [&](const Vector<T>& at_m, const Vector<T>& w) {
-      return momentumRate<gyroscopic>(at_m, w, none);
-    };
-    const Vector<T> w1 = product(a, m), k1 = rate(m, w1);
-    const Vector<T> m2 = m + (0.5 * h) * k1, w2 = product(a, m2), k2 = rate(m2, w2);
-    const Vector<T> m3 = m + (0.5 * h) * k2, w3 = product(a, m3), k3 = rate(m3, w3);
-    const Vector<T> m4 = m + h * k3, w4 = product(a, m4), k4 = rate(m4, w4);
-    const double sixth = h / 6;
-    const Vector<T> turn = sixth * (w1 + 2 * w2 + 2 * w3 + w4) + (h * h / 12) * cross(w1, w4);
-    const Vector<T> m_next = m + sixth * (k1 + 2 * k2 + 2 * k3 + k4);
-    const Rotation<T> after = rotationAfter<gyroscopic>(before, turn, m_next, before.L_W);
-    storeQuaternion(at, bodies.q_WB, n, select(is_still, before.q_WB, after.q_WB));
-    if constexpr (!gyroscopic)
-      storeVector(at, bodies.L_WBcm_W, n, select(is_still, before.L_W, after.L_W));
-  });
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "integrators/batch/drift.hpp"
 #include "integrators/batch/kernels.hpp"
-#include "integrators/batch/rk4.hpp"
+#include "integrators/batch/rk4_steady.hpp"
 #include "integrators/batch/spins.hpp"
 
 namespace rigid_body_sim::batch {
@@ -28,8 +28,8 @@ void fillTable(Kernels& table) {
   table.rk4Stage = rk4Stage<S, true, EffectsSee::kPose>;
   table.rk4StageWithVelocity = rk4Stage<S, true, EffectsSee::kVelocityToo>;
   table.rk4StageWithoutGyroscopicTerm = rk4Stage<S, false, EffectsSee::kVelocityToo>;
-  table.rk4Free = rk4Free<S, true>;
-  table.rk4FreeWithoutGyroscopicTerm = rk4Free<S, false>;
+  table.rk4Steady = rk4Steady<S, true>;
+  table.rk4SteadyWithoutGyroscopicTerm = rk4Steady<S, false>;
   table.kickSpins = kickSpins<S>;
   table.driftSpins = driftSpins<S>;
 }
