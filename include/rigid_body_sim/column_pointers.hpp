@@ -66,6 +66,14 @@ inline void add(const Pointers3<double>& p, Eigen::Index i, const Triple& v) {
   p.add(i, v.x, v.y, v.z);
 }
 
+/// As move() of body_state.hpp, of p_WBcm and p_low.
+inline void move(const Pointers3<double>& p, const Pointers3<double>& low, Eigen::Index i,
+                 const Triple& way) {
+  const Triple before = at(p, i), all = at(low, i) + way, sum = before + all, added = sum - before;
+  set(low, i, (before - (sum - added)) + (all - added));
+  set(p, i, sum);
+}
+
 /// One rotation matrix, where a body is met more than once.
 struct Turn {
   double e[9];  // column by column
