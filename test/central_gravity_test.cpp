@@ -184,6 +184,16 @@ TEST(CentralGravity, StiffnessBoundsTheGradientWithOblateness) {
   EXPECT_NEAR(both * both, central * central * (1 + 12 * 0.3), 1e-14);
 }
 
+TEST(CentralGravity, StiffnessOfALongBodyIsThatOfItsPitch) {
+  // 3 mu/r^3 (I_j - I_k)/I_i, largest for pitch about the middle axis here.
+  const Scene scene = sceneFrom(
+      "{effects: {central_gravity: {mu: 5, gravity_gradient: true}}, bodies: {rod: {mass: 1, "
+      "inertia: [0.1, 1, 1.05], position: [0, 2, 0]}}}");
+  const double rate =
+      scene.effects.at(0)->stiffness(Instant(Simulator(scene).bodies(), 0)).oscillation;
+  EXPECT_NEAR(rate, std::sqrt(3 * 5.0 / 8 * (1.05 - 0.1) / 1), 4 * kEps);
+}
+
 TEST(CentralGravity, OblatenessInTheWrongUnitIsRefused) {
   const auto start = [](const std::string& radius, const std::string& bodies) {
     return sceneFrom(

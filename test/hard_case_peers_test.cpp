@@ -77,6 +77,14 @@ TEST_F(Engines, OneThatEndsItsProcessIsShownAndEndsNothingElse) {
   EXPECT_EQ(cells[4].fate, Fate::kEnds);
 }
 
+TEST_F(Engines, AnswersMayBeTooSmallForANormalNumber) {
+  add("ode", "printf 'holds\\t1\\t0\\t-4.9e-324\\t1\\t1e-310\\t1e-9\\t\\n.\\n'");
+  const PeerCell cell = fly().at(0);
+  EXPECT_EQ(cell.fate, Fate::kHolds);
+  EXPECT_EQ(cell.verdict.errors.at(0), 1e-310);
+  EXPECT_EQ(cell.verdict.momentum_error, -4.9e-324);
+}
+
 TEST_F(Engines, OneThatSaysSomethingElseHasNotAnswered) {
   add("ode", "echo 'holds'; echo 'wrong\t1\t0\t0\t7\t1'; exit 3");
   EXPECT_EQ(fly().at(0).fate, Fate::kEnds);

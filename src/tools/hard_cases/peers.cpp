@@ -67,6 +67,9 @@ std::string lastWords(const std::string& said, int code) {
          (last == lines.rend() ? "" : ": " + *last);
 }
 
+/// By way of a wider type, as std::stod() throws on denormal numbers.
+double numberIn(const std::string& field) { return static_cast<double>(std::stold(field)); }
+
 /// The answer of bench/hard_case.hpp. False if the line is none.
 bool read(const std::string& line, PeerCell& cell) {
   std::vector<std::string> fields;
@@ -80,12 +83,12 @@ bool read(const std::string& line, PeerCell& cell) {
   if (fields.size() < 5 + 2 * count) return false;
   cell.fate = *fate;
   Verdict& verdict = cell.verdict;
-  verdict.end_s = std::stod(fields[1]);
-  verdict.energy_change = std::stod(fields[2]);
-  verdict.momentum_error = std::stod(fields[3]);
+  verdict.end_s = numberIn(fields[1]);
+  verdict.energy_change = numberIn(fields[2]);
+  verdict.momentum_error = numberIn(fields[3]);
   for (std::size_t k = 5; k < 5 + count; ++k) {
-    verdict.errors.push_back(std::stod(fields[k]));
-    verdict.bounds.push_back(std::stod(fields[k + count]));
+    verdict.errors.push_back(numberIn(fields[k]));
+    verdict.bounds.push_back(numberIn(fields[k + count]));
   }
   if (fields.size() > 5 + 2 * count) verdict.why = fields[5 + 2 * count];
   return true;
