@@ -1,8 +1,19 @@
 #include "node/diagnostics.hpp"
 
+#include <cmath>
+
 namespace rigid_body_sim {
 
 using diagnostic_msgs::DiagnosticStatus;
+
+namespace {
+
+/// Of the energy that there is: what a method makes or loses of it beyond this is worth a warning.
+/// It stays until ~reset, so that a close encounter of a few ticks is seen however seldom one
+/// looks.
+constexpr double kNoticeable = 0.01;
+
+}  // namespace
 
 Diagnostics::Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs,
                          Pace& pace, double real_time_factor)
@@ -41,10 +52,14 @@ void Diagnostics::reportEffects(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.addf("work since the start",
               "%.9g J of inputs, %.9g J of effects that are not conservative", energy.inputs_J,
               energy.effects_J);
-  if (simulator_.frozenBodies().empty())
-    status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
-  else
-    status.add("energy unaccounted for", "not known: a body is frozen");
+  if (!simulator_.frozenBodies().empty())
+    return status.add("energy unaccounted for", "not known: a body is frozen");
+  status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
+  const double turnover_J =
+      energy.kinetic_J + std::abs(energy.inputs_J) + std::abs(energy.effects_J);
+  if (std::abs(energy.unaccounted_J()) > kNoticeable * turnover_J)
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%.3g J are unaccounted for: steps too long",
+                         energy.unaccounted_J());
 }
 
 void Diagnostics::reportPace(diagnostic_updater::DiagnosticStatusWrapper& status) {
