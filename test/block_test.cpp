@@ -286,49 +286,6 @@ TEST(Method, ThatInputsMadeTooFastIsFound) {
   EXPECT_EQ(body->max_turn, 1);
 }
 
-/// Under gravity and this, from rest.
-std::string fallingUnder(const std::string& friction, int substeps = 1) {
-  return "{substeps: " + std::to_string(substeps) +
-         ", effects: {gravity: {acceleration: [0, 0, -9.8]}, " + friction +
-         "}, bodies: {flake: {point_mass: 1.0e-6}}}";
-}
-
-TEST(Method, ThatFrictionStopsWithinAStepMovesAsSlowlyAsIsSaid) {
-  for (const int substeps : {1, 2}) {
-    const double x = 400 * 0.02 / substeps;
-    Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 400}", substeps)));
-    std::ostringstream share;
-    share << 100 * 0.5 * x / std::sinh(0.5 * x) << " % of the right speed";
-    ASSERT_EQ(simulator.scene().warnings.size(), 1u);
-    EXPECT_TRUE(contains(simulator.scene().warnings[0],
-                         {"'flake'", "'damping'", share.str(), "with 16 substeps", "rk4"}));
-    for (int k = 0; k < 100; ++k) simulator.step();
-    const double before = simulator.state(0).p_WBcm.z();
-    simulator.step();
-    EXPECT_NEAR((before - simulator.state(0).p_WBcm.z()) / 0.02 / (9.8 / 400),
-                0.5 * x / std::sinh(0.5 * x), 1e-6);
-  }
-}
-
-TEST(Method, ThatNoSubstepsCanMendIsSaidSo) {
-  const Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 1.0e+7}")));  // 1e7 1/s
-  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
-  EXPECT_TRUE(contains(simulator.scene().warnings[0], {"no number of substeps", "step_s"}));
-  EXPECT_FALSE(contains(simulator.scene().warnings[0], {"rk4"}));
-}
-
-TEST(Method, ThatDragStopsWithinAStepLaterIsFoundThen) {
-  // From rest there is no drag; at the terminal 0.1 m/s its rate is 2 g / v = 196 1/s.
-  Simulator simulator(sceneFrom(fallingUnder("drag: {air_density: 1.225, drag_area: 1.6e-3}")));
-  EXPECT_TRUE(simulator.scene().warnings.empty());
-  EXPECT_FALSE(simulator.stiffBody());
-  for (int k = 0; k < 100; ++k) simulator.step();
-  const auto stiff = simulator.stiffBody();
-  ASSERT_TRUE(stiff);
-  EXPECT_EQ(stiff->body, 0);
-  EXPECT_TRUE(contains(stiff->why, {"'drag' slows it down", "a wrong speed"}));
-}
-
 TEST(Method, TakesACountOfSubstepsInItsBounds) {
   for (const int substeps : {0, -1, 10'001}) {
     Scene scene = sixBodies();

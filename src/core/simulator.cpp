@@ -78,6 +78,7 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
   at_start_ = {scene_.effects, scene_.gyroscopic};
+  start_warnings_ = scene_.warnings.size();
   if (scene_.effects.empty() && initial_.P_WB.isZero(0) && initial_.L_WBcm_W.isZero(0))
     scene_.elided.push_back(
         "motion: all bodies start at rest and nothing acts on them; nothing is computed until "
@@ -259,6 +260,7 @@ void Simulator::reset() {
   if (watch_ && watch_->reset(tick_ + 1)) scene_.methods = methodsOf(watch_->state().bill);
   scene_.effects = at_start_.effects;
   scene_.gyroscopic = at_start_.gyroscopic;
+  scene_.warnings.resize(start_warnings_);
   makeBlocks();
   start_energy_J_ = initial_energy_J_;
   counts_.clear();

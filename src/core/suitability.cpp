@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/stiffness_sum.hpp"
+
 namespace rigid_body_sim {
 namespace {
 
@@ -129,42 +131,6 @@ std::string objection(const Method& method, const EffectList& effects) {
 
 namespace {
 
-/// The methods on velocities kick between the flows, and then a swing w h is bounded up to
-/// (w h)^2 = 2 (1 + exp(-x)) under a friction of x a step: 2 without, the root of 2 with any.
-constexpr double kSwingWithinFriction = 1.41;
-
-bool kicksWithinFlows(const IntegratorRow& row) {
-  return row.has_drifts && !row.keeps_angular_momentum;
-}
-
-bool isFriction(const Effect& effect) {
-  return effect.hasStableFlow() && !effect.hasReversibleFlow();
-}
-
-/// What several effects make of a body together: squares of frequencies add, and so do rates of
-/// decay.
-struct Sum {
-  double most_swing = std::numeric_limits<double>::infinity();  // [rad] a step, beside the row's
-  double squares = 0;                                           // [1/s^2]
-  double decays = 0;                                            // [1/s]
-  bool is_linear = true;
-  std::string names;
-
-  void add(const Effect& effect, const Stiffness& stiff) {
-    if (stiff.oscillation == 0 && stiff.decay == 0) return;
-    squares += stiff.oscillation * stiff.oscillation;
-    decays += stiff.decay;
-    is_linear = is_linear && (stiff.is_linear || stiff.oscillation == 0);
-    names += (names.empty() ? "'" : " and '") + effect.name() + "'";
-  }
-  double longest(const IntegratorRow& row) const {
-    const double max_swing = std::min(most_swing, is_linear ? row.max_swing : row.max_large_swing);
-    // Both at once bear less than each alone: an ellipse lies within the regions of stability.
-    const double decay = decays == 0 ? 0 : decays / row.max_decay;
-    return 1 / std::hypot(std::sqrt(squares) / max_swing, decay);
-  }
-};
-
 Sum emptySum(const IntegratorRow& row, const EffectList& effects) {
   Sum sum;
   const auto is_friction = [](const auto& effect) { return isFriction(*effect); };
@@ -187,7 +153,8 @@ Sum sumOf(Sum sum, const EffectList& forces, const Instant& now) {
   return sum;
 }
 
-/// Of body i alone; effects that cannot be divided count with their stiffest body.
+}  // namespace
+
 Sum sumOn(Eigen::Index i, Sum sum, const EffectList& forces, const Instant& now) {
   const Bodies own = rowsOf(now.bodies(), {i});
   const Instant alone(own, now.time_s());
@@ -198,11 +165,12 @@ Sum sumOn(Eigen::Index i, Sum sum, const EffectList& forces, const Instant& now)
   return sum;
 }
 
+namespace {
+
 std::string wordsFor(const Sum& sum, const Method& method, double tick_s, bool exact_bears_it) {
   const double longest = sum.longest(integratorNamed(method.integrator));
-  const bool are_many = sum.names.find(" and ") != std::string::npos;
   std::ostringstream why;
-  why << sum.names << (are_many ? " together are too stiff: it " : " is too stiff: it ");
+  why << sum.names << (sum.isOfMany() ? " together are too stiff: it " : " is too stiff: it ");
   if (sum.squares > 0) why << "may swing at " << std::sqrt(sum.squares) << " rad/s";
   if (sum.squares > 0 && sum.decays > 0) why << " and ";
   if (sum.decays > 0) why << "slows down at " << sum.decays << " 1/s";
@@ -272,76 +240,6 @@ std::string objection(const Method& method, double rate, double tick_s) {
       << row.max_turn << "; take " << std::ceil(rate * tick_s / row.max_turn)
       << " substeps or more, or exact";
   return why.str();
-}
-
-std::string caution(const Method& method, const EffectList& effects) {
-  const IntegratorRow& row = integratorNamed(method.integrator);
-  for (const auto& effect : effects) {
-    const int order = orderUnder(row, *effect);
-    if (order >= row.order || order == 0) continue;
-    const bool is_flow = effect->flowOrder() > 0;
-    return effect->name() + (is_flow ? " is a flow of its own: " : " depends on velocities: ") +
-           row.name + " is of order " + std::to_string(order) + " with it, not " +
-           std::to_string(row.order) +
-           (is_flow ? "" : ", and may gain energy without bound; rk4 and rk8 keep their order");
-  }
-  return {};
-}
-
-std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
-                                   const Instant& now, double tick_s) {
-  const IntegratorRow& row = integratorNamed(method.integrator);
-  if (!row.has_drifts) return std::nullopt;
-  for (const auto& effect : effects) {
-    if (!isFriction(*effect)) continue;
-    const Stiffness stiff = effect->stiffness(now);
-    const double a_step = stiff.decay * tick_s / method.substeps;
-    if (!(a_step > 1)) continue;
-    // A steady force f gives f h/2 around each drift, of which exp(-x/2) is left in it; right would
-    // be f/c, with x = c h. Nothing as simple holds for friction that grows with the speed, nor
-    // where the kick lies within the flows.
-    const double share = 0.5 * a_step / std::sinh(0.5 * a_step);
-    const bool is_known = stiff.is_linear && !kicksWithinFlows(row);
-    std::ostringstream why;
-    why << "'" << effect->name() << "' slows it down at " << stiff.decay << " 1/s, " << a_step
-        << " times a step: a steady force moves it at ";
-    if (is_known)
-      why << "as little as " << 100 * share << " % of the right speed then; ";
-    else
-      why << "a wrong speed then; ";
-    if (const double substeps = std::ceil(2 * a_step * method.substeps); substeps <= kMostSubsteps)
-      why << "with " << substeps << " substeps at " << (is_known ? "99 %" : "about the right one");
-    else
-      why << "no number of substeps mends that, but a shorter step_s";
-    if (stiff.decay * tick_s <= kMostSubsteps * integratorNamed("rk4").max_decay)
-      why << "; rk4, rk8 and adaptive have no such error";
-    return Fault{stiff.body, why.str()};
-  }
-  return std::nullopt;
-}
-
-constexpr double kLargeTurn = 0.5;  // [rad]
-
-/// Kicks before and after a drift act along the world's axes as they are then. If these turn by x
-/// in between, two halves of a kick make f h cos(x/2), where f h sin(x/2) / (x/2) is right.
-std::string turnsTooFar(const Method& method, const EffectList& effects, const Instant& now,
-                        double tick_s) {
-  if (!integratorNamed(method.integrator).has_drifts) return {};
-  for (const auto& effect : effects) {
-    if (!effect->hasTurningFlow()) continue;
-    const double turn = 0.5 * effect->stiffness(now).oscillation * tick_s / method.substeps;
-    if (!(turn > kLargeTurn)) continue;
-    std::ostringstream why;
-    why << "'" << effect->name() << "' turns by " << turn
-        << " rad a step: free flight is exact, but a steady force gives "
-        << 100 * (0.5 * turn) / std::tan(0.5 * turn) << " % of the right momentum; ";
-    if (const double substeps = std::ceil(turn * method.substeps / 0.34); substeps <= kMostSubsteps)
-      why << "with " << substeps << " substeps 99 %";
-    else
-      why << "a shorter step_s mends that";
-    return why.str();
-  }
-  return {};
 }
 
 std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,

@@ -64,6 +64,10 @@ std::string caution(const Method& method, const EffectList& effects);
 std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
                                    const Instant& now, double tick_s);
 
+/// What is falsified by effects whose flow turns far in a step; empty if nothing.
+std::string turnsTooFar(const Method& method, const EffectList& effects, const Instant& now,
+                        double tick_s);
+
 /// Effects on the bodies of a part of the scene, no bodies meaning all.
 /// @throws std::invalid_argument if an effect cannot be divided among the parts
 EffectList effectsOn(const MethodOfBodies& part, const Scene& scene);

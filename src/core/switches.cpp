@@ -53,7 +53,10 @@ bool Simulator::switchEffect(const std::string& name, bool is_on) {
   changed.effects = to.effects;
   changed.gyroscopic = to.gyroscopic;
   // What ends makes nothing harder, but that some effects need the gyroscopic term.
-  if (is_on || name == "gyroscopic") requireSuitableMethods(changed, bodies(), time_s());
+  changed.warnings.resize(start_warnings_);
+  if (is_on || name == "gyroscopic")
+    for (std::string& warning : requireSuitableMethods(changed, bodies(), time_s()))
+      changed.warnings.push_back(std::move(warning));
   const double before = energy().potential_J;
   scene_ = std::move(changed);
   start_energy_J_ += energy().potential_J - before;  // it comes and goes with the effect

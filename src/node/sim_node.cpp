@@ -33,7 +33,8 @@ SimNode::SimNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::Callback
       inputs_(nh, simulator_, time_, options_),
       outputs_(nh, simulator_, time_, options_),
       diagnostics_(nh, simulator_, inputs_, pace_, options.real_time_factor),
-      paused_(options.paused) {
+      paused_(options.paused),
+      start_warnings_(simulator_.scene().warnings.size()) {
   services_.push_back(private_nh.advertiseService(names::kPause, &SimNode::pause, this));
   services_.push_back(private_nh.advertiseService(names::kStep, &SimNode::step, this));
   services_.push_back(private_nh.advertiseService(names::kReset, &SimNode::reset, this));
@@ -181,11 +182,17 @@ bool SimNode::switchEffect(SwitchEffect::Request& request, SwitchEffect::Respons
   }
   response.success = true;
   response.message = summary(simulator_.scene());
-  if (is_new)
-    ROS_INFO("%s is switched %s from tick %ld on: %s", effect.c_str(), state.c_str(),
-             static_cast<long>(simulator_.tick()), response.message.c_str());
-  else
+  if (!is_new) {
     response.message = effect + " is " + state + " already: " + response.message;
+    return true;
+  }
+  ROS_INFO("%s is switched %s from tick %ld on: %s", effect.c_str(), state.c_str(),
+           static_cast<long>(simulator_.tick()), response.message.c_str());
+  const std::vector<std::string>& warnings = simulator_.scene().warnings;
+  for (std::size_t i = start_warnings_; i < warnings.size(); ++i) {
+    ROS_WARN("%s", warnings[i].c_str());
+    response.message += "; " + warnings[i];
+  }
   return true;
 }
 

@@ -57,7 +57,8 @@ class SimNode {
   Diagnostics diagnostics_;
   std::vector<ros::ServiceServer> services_;
   bool paused_;
-  bool is_published_ = false;  // the state of the simulator's tick
+  std::size_t start_warnings_;  // how many of the scene's are no switch's
+  bool is_published_ = false;   // the state of the simulator's tick
   std::size_t frozen_told_ = 0;
   int bills_told_ = 0;
   bool is_breach_told_ = false;  // by the present methods

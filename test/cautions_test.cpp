@@ -1,0 +1,94 @@
+// What is said of errors that a method makes where it is stable.
+#include "generic.hpp"
+
+namespace rigid_body_sim {
+namespace {
+
+/// Under gravity and this, from rest.
+std::string fallingUnder(const std::string& friction, int substeps = 1) {
+  return "{substeps: " + std::to_string(substeps) +
+         ", effects: {gravity: {acceleration: [0, 0, -9.8]}, " + friction +
+         "}, bodies: {flake: {point_mass: 1.0e-6}}}";
+}
+
+TEST(Caution, ThatFrictionStopsABodyWithinAStepSaysHowSlowlyItMoves) {
+  for (const int substeps : {1, 2}) {
+    const double x = 400 * 0.02 / substeps;
+    Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 400}", substeps)));
+    std::ostringstream share;
+    share << 100 * 0.5 * x / std::sinh(0.5 * x) << " % of the right speed";
+    ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+    EXPECT_TRUE(contains(simulator.scene().warnings[0],
+                         {"'flake'", "'damping'", share.str(), "with 16 substeps", "rk4"}));
+    for (int k = 0; k < 100; ++k) simulator.step();
+    const double before = simulator.state(0).p_WBcm.z();
+    simulator.step();
+    EXPECT_NEAR((before - simulator.state(0).p_WBcm.z()) / 0.02 / (9.8 / 400),
+                0.5 * x / std::sinh(0.5 * x), 1e-6);
+  }
+}
+
+TEST(Caution, ThatNoSubstepsCanMendSaysSo) {
+  const Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 1.0e+7}")));  // 1e7 1/s
+  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+  EXPECT_TRUE(contains(simulator.scene().warnings[0], {"no number of substeps", "step_s"}));
+  EXPECT_FALSE(contains(simulator.scene().warnings[0], {"rk4"}));
+}
+
+TEST(Caution, ThatDragStopsABodyWithinAStepComesWhenItDoes) {
+  // From rest there is no drag; at the terminal 0.1 m/s its rate is 2 g / v = 196 1/s.
+  Simulator simulator(sceneFrom(fallingUnder("drag: {air_density: 1.225, drag_area: 1.6e-3}")));
+  EXPECT_TRUE(simulator.scene().warnings.empty());
+  EXPECT_FALSE(simulator.stiffBody());
+  for (int k = 0; k < 100; ++k) simulator.step();
+  const auto stiff = simulator.stiffBody();
+  ASSERT_TRUE(stiff);
+  EXPECT_EQ(stiff->body, 0);
+  EXPECT_TRUE(contains(stiff->why, {"'drag' slows it down", "a wrong speed"}));
+}
+
+// A dashpot of 30 1/s, so long that its direction does not change.
+const std::string kDashpot =
+    "spring: [{body: flake, anchor: [0, 0, -1.0e+6], stiffness: 0, damping: 3.0e-5}]";
+
+TEST(Caution, FrictionsOfABodyCountTogether) {
+  EXPECT_TRUE(Simulator(sceneFrom(fallingUnder("damping: {linear: 30}"))).scene().warnings.empty());
+  EXPECT_TRUE(Simulator(sceneFrom(fallingUnder(kDashpot))).scene().warnings.empty());
+  Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 30}, " + kDashpot)));
+  const double x = 60 * 0.02, share = 0.5 * x / std::sinh(0.5 * x);
+  std::ostringstream said;
+  said << 100 * share << " % of the right speed";
+  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+  EXPECT_TRUE(contains(simulator.scene().warnings[0],
+                       {"'flake'", "'damping' and 'spring_damping' together", said.str()}));
+  EXPECT_TRUE(simulator.stiffBody());
+  simulator.advance(1000);
+  const double before = simulator.state(0).p_WBcm.z();
+  simulator.step();
+  EXPECT_NEAR((before - simulator.state(0).p_WBcm.z()) / 0.02 / (9.8 / 60), share, 1e-6);
+}
+
+TEST(Caution, FrictionsOfDifferentBodiesDoNot) {
+  const Simulator simulator(
+      sceneFrom("{effects: {damping: {linear: 30}, " + kDashpot +
+                "}, bodies: {flake: {point_mass: 1.0e-6, damping: false}, b: {point_mass: 1}}}"));
+  EXPECT_TRUE(simulator.scene().warnings.empty());
+}
+
+TEST(Caution, OfASwitchComesAfterTheScenesOwn) {
+  Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 400}")));
+  const std::vector<std::string> at_start = simulator.scene().warnings;
+  ASSERT_EQ(at_start.size(), 1u);
+  const std::vector<std::string> both = {at_start[0], at_start[0]};
+  for (int times = 0; times < 2; ++times) {
+    simulator.switchEffect("damping", false);
+    EXPECT_EQ(simulator.scene().warnings, at_start);
+    simulator.switchEffect("damping", true);
+    EXPECT_EQ(simulator.scene().warnings, both);
+  }
+  simulator.reset();
+  EXPECT_EQ(simulator.scene().warnings, at_start);
+}
+
+}  // namespace
+}  // namespace rigid_body_sim
