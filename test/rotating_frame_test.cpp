@@ -91,6 +91,20 @@ TEST(RotatingFrame, ABodyAtRestInInertialSpaceMovesInACircle) {
   }
 }
 
+TEST(RotatingFrame, AttitudeOfABodyAtRestInInertialSpaceStaysAUnitQuaternion) {
+  // No drift turns it, so that none brings its length back to one.
+  Scene scene = turning({0, 0, 0.75}, "b: {mass: 1, inertia: [1, 2, 2]}");
+  scene.bodies[0].w_WB_L << 0, 0, -0.75;
+  Simulator simulator(scene);
+  simulator.advance(1'000'000);
+  const Quaterniond q_WB = simulator.state(0).q_WB;
+  EXPECT_EQ(simulator.state(0).L_WBcm_W, Vector3d(0, 0, -1.5));
+  EXPECT_LE(std::abs(q_WB.norm() - 1), 4 * kEps);
+  // The quaternion of a step is rounded by 1e-16 of 0.0075 in its small part.
+  const Quaterniond expected(Eigen::AngleAxisd(-0.75 * 0.02 * 1e6, Vector3d::UnitZ()));
+  EXPECT_LE(angleBetween(q_WB, expected), 15000 * kEps);
+}
+
 TEST(RotatingFrame, ADayAtTheEarthsRateLosesNothingToOneSide) {
   const double rate = 7.292115e-5, day_s = 86400;
   const Vector3d Omega = rate * Vector3d(0.48, -0.6, 0.64), p(4.2e6, -3.1e6, 3.7e6);

@@ -109,7 +109,7 @@ HardCase heavyDrag() {
               {Measure::kAngularMomentum, 1e-13, "the same"},
               // With x = k/m v0 h = 1497 the sum of h v0 / (1 + x (n + 1/2)) over the steps n is
               // m/k (ln x + psi(1/2)) short of the way, and as much of the turn with x = 229.
-              {Measure::kPosition, 0.02676, "the midpoint rule, of v as it is: 0.0675 m"},
+              {Measure::kPosition, 0.02676, "the midpoint rule, of v as it is: 0.0676 m"},
               {Measure::kAttitude, 0.06985, "the midpoint rule, of w as it is: 0.233 rad"},
               unitLength()};
   one.source = "v = v0 / (1 + k/m v0 t)";
