@@ -167,6 +167,20 @@ TEST(ABadUrdf, InAParameterEndsTheNodeWithOneAndALineThatNamesTheParameter) {
   ros::param::del("/bad_description");
 }
 
+TEST(AnEmptyBlock, ThatTheParameterServerDroppedEndsTheNodeWithOneAndItsPath) {
+  const auto dropped = [](const std::string& scene, const std::string& path) {
+    const TemporaryFile file("dropped.yaml", scene);
+    expectRefusal("scene_file: " + file.path() + "\n" + kBall,
+                  {path + ": empty in " + file.path()});
+  };
+  dropped("effects: {gravity: {}}\n" + std::string(kBall), "effects.gravity");
+  dropped("bodies: {ball: {added_mass: {}}}", "bodies.ball.added_mass");
+  dropped("accuracy: {}\n" + std::string(kBall), "accuracy");
+  // What means the same by not being there may be empty, and what is there is not dropped.
+  const TemporaryFile file("whole.yaml", "effects: {}\nlimits: {}\n" + std::string(kBall));
+  EXPECT_TRUE(Node("scene_file: " + file.path() + "\n" + kBall).runs());
+}
+
 TEST(SimTimeWithoutAClock, EndsTheNodeWithOneAndALineThatNamesBoth) {
   ros::param::set("/use_sim_time", true);
   expectRefusal(std::string(kBall) + "\npublish_clock: false",

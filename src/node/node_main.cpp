@@ -6,8 +6,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
+#include <iterator>
 
 #include "node/conversions.hpp"
+#include "node/dropped_blocks.hpp"
 #include "node/master_watch.hpp"
 #include "node/names.hpp"
 #include "node/options.hpp"
@@ -34,6 +37,16 @@ Value privateParameters(const ros::NodeHandle& private_nh) {
   XmlRpc::XmlRpcValue all;
   if (!private_nh.getParam("", all)) return Value{Value::Map()};
   return toValue(all);
+}
+
+/// If the parameters came from a file that is there.
+void requireWholeScene(const Parameters& parameters, const Value& given) {
+  if (!parameters.has("scene_file")) return;
+  const std::string name = parameters.text("scene_file");
+  std::ifstream file(name);
+  if (!file) return;
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  refuseDroppedBlocks(readYaml(text, name), given, name);
 }
 
 std::string urdfParameter(const ros::NodeHandle& nh, const std::string& name) {
@@ -88,7 +101,9 @@ void tellTopics(const Scene& scene, const NodeOptions& options) {
 }
 
 void simulate(ros::NodeHandle& nh, ros::NodeHandle& private_nh, ros::CallbackQueue& queue) {
-  const Parameters parameters(privateParameters(private_nh), "");
+  const Value given = privateParameters(private_nh);
+  const Parameters parameters(given, "");
+  requireWholeScene(parameters, given);
   const bool use_sim_time = ros::param::param("/use_sim_time", false);
   const NodeOptions options = readNodeOptions(parameters, use_sim_time, wallTime());
   Scene scene = readScene(parameters, {options.scene_folder,
