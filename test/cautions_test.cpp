@@ -38,7 +38,6 @@ TEST(Caution, ThatNoSubstepsCanMendSaysSo) {
 TEST(Caution, ThatDragStopsABodyWithinAStepComesWhenItDoes) {
   // From rest there is no drag; at the terminal 0.1 m/s its rate is 2 g / v = 196 1/s.
   Simulator simulator(sceneFrom(fallingUnder("drag: {air_density: 1.225, drag_area: 1.6e-3}")));
-  EXPECT_TRUE(simulator.scene().warnings.empty());
   EXPECT_FALSE(simulator.stiffBody());
   for (int k = 0; k < 100; ++k) simulator.step();
   const auto stiff = simulator.stiffBody();
@@ -88,6 +87,76 @@ TEST(Caution, OfASwitchComesAfterTheScenesOwn) {
   }
   simulator.reset();
   EXPECT_EQ(simulator.scene().warnings, at_start);
+}
+
+// ---- The start looks ahead
+
+std::vector<std::string> warningsOf(const std::string& scene) {
+  return Simulator(sceneFrom(scene)).scene().warnings;
+}
+
+TEST(LookAhead, FindsDragThatWillStopABodyWithinAStep) {
+  // v' = g at first, so that the rate 2 k v / m is above one a step when v = m / (2 k h) = 0.0255
+  // m/s: in the first tick.
+  const auto warnings = warningsOf(fallingUnder("drag: {air_density: 1.225, drag_area: 1.6e-3}"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], {"'flake', 0.02 s after the start", "'drag' slows it down"}));
+}
+
+TEST(LookAhead, FindsACloseEncounter) {
+  // Falls 1 m in pi/2 sqrt(r^3 / 2 mu) = 0.351 s, and sqrt(mu/r^3) exceeds half a radian a step
+  // below 0.253 m; the last 0.253 m take less than 0.05 s.
+  const std::string comet =
+      "{effects: {central_gravity: {mu: 10}}, bodies: {comet: {point_mass: 1, position: [1, 0, 0], "
+      "linear_velocity: [0, 0.1, 0]}}}";
+  const auto warnings = warningsOf(comet);
+  ASSERT_EQ(warnings.size(), 1u);
+  double when_s = 0;
+  ASSERT_EQ(std::sscanf(warnings[0].c_str(), "body 'comet', %lf s after the start", &when_s), 1);
+  EXPECT_GE(when_s, 0.30);
+  EXPECT_LE(when_s, 0.36);
+  EXPECT_TRUE(contains(warnings[0], {"'central_gravity' is too stiff", "substeps"}));
+}
+
+TEST(LookAhead, FindsAHeavyBodyThatWillHangOffItsCentre) {
+  // m g e = 98 N m turn a moment of 0.01 kg m^2: 99 rad/s, once the spring is stretched.
+  const std::string hung =
+      "{effects: {gravity: {acceleration: [0, 0, -9.8]}, spring: [{body: bob, point: [0, 0, 1], "
+      "anchor: [0, 0, 1], stiffness: 5}]}, bodies: {bob: {mass: 10, inertia: [0.01, 0.01, 0.01], "
+      "orientation: [0.1, 0, 0, 0.995]}}}";
+  const auto warnings = warningsOf(hung);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], {"'bob'", "s after the start", "'spring' is too stiff"}));
+}
+
+/// A force that is infinite from 0.5 s on.
+class Bursts : public Effect {
+ public:
+  std::string name() const override { return "bursts"; }
+  std::size_t bodyCount() const override { return 1; }
+  void addWrenches(const Instant& now, Wrenches& wrenches) const override {
+    if (now.time_s() > 0.495) wrenches.f_W(0, 0) += std::numeric_limits<double>::infinity();
+  }
+};
+
+TEST(LookAhead, FindsAStateThatWillBeInfinite) {
+  Scene scene = sceneFrom("{bodies: {a: {point_mass: 1}}}");
+  scene.effects = {std::make_shared<Bursts>()};
+  const Simulator simulator(scene);
+  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+  EXPECT_EQ(simulator.scene().warnings[0],
+            "body 'a', 0.5 s after the start: its state becomes infinite");
+  EXPECT_TRUE(simulator.frozenBodies().empty());
+  EXPECT_EQ(simulator.tick(), 0);
+}
+
+TEST(LookAhead, LeavesNoTraceAndSaysNothingOfWhatStaysWithinTheLimits) {
+  const std::string swing =
+      "{effects: {gravity: {acceleration: [0, 0, -9.8]}, spring: [{body: bob, anchor: [0, 0, 1], "
+      "stiffness: 50, damping: 1}]}, bodies: {bob: {mass: 1, inertia: [0.1, 0.1, 0.1]}}}";
+  const Simulator simulator(sceneFrom(swing));
+  EXPECT_TRUE(simulator.scene().warnings.empty());
+  for (const EffectCount& count : simulator.effectCounts()) EXPECT_EQ(count.evaluations, 0u);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/accuracy_watch.hpp"
 #include "core/block.hpp"
 #include "core/crew.hpp"
+#include "core/rehearsal.hpp"
 #include "core/suitability.hpp"
 #include "rigid_body_sim/conserved.hpp"
 
@@ -77,6 +78,9 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
   }
   for (std::string& warning : requireSuitableMethods(scene_, bodies_))
     scene_.warnings.push_back(std::move(warning));
+  if (!scene_.accuracy)
+    if (const auto trouble = firstTrouble(scene_, bodies_))
+      scene_.warnings.push_back(toText(*trouble, scene_));
   at_start_ = {scene_.effects, scene_.gyroscopic};
   start_warnings_ = scene_.warnings.size();
   if (scene_.effects.empty() && initial_.P_WB.isZero(0) && initial_.L_WBcm_W.isZero(0))
