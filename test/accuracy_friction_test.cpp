@@ -211,6 +211,10 @@ TEST(StiffFriction, OfBodiesOverLongIsExtrapolated) {
   const Bill bill = plan(scene, metres(1e-2, 150));
   EXPECT_LT(bill.ticks_flown, 7500);
   EXPECT_TRUE(contains(toText(bill, scene), {"extrapolated"}));
+  Scene strict = scene;
+  strict.accuracy = metres(1e-16, 150);
+  EXPECT_TRUE(contains(refusal([&] { Simulator{strict}; }),
+                       {"cannot be kept", "extrapolated from the first", "ask for less"}));
 }
 
 TEST(StiffFriction, GetsTheSameMethodEachTime) {

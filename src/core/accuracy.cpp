@@ -248,7 +248,7 @@ class Choice {
 /// does not keep its budget
 void requireKept(const Bill& bill, const Scene& scene) {
   for (const ClassBill& one : bill.classes)
-    if (!one.keeps_budget) throw std::invalid_argument(refusal(bill.budget, one, scene));
+    if (!one.keeps_budget) throw std::invalid_argument(refusal(bill, one, scene));
 }
 
 }  // namespace

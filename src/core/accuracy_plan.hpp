@@ -17,9 +17,9 @@ Bill planFrom(const Situation& now, const Budget& budget, WithoutAMethod otherwi
 /// where nothing keeps the budget, and the bill as it is where nothing can be known.
 Bill planAgain(const Bill& bill, const Situation& now, Eigen::Index body);
 
-/// Why there is no plan: the budget, the body, the best there is and what it leaves, and what to
+/// Why the bill is no plan: the budget, the body, the best there is and what it leaves, and what to
 /// do.
-std::string refusal(const Budget& budget, const ClassBill& one, const Scene& scene);
+std::string refusal(const Bill& bill, const ClassBill& one, const Scene& scene);
 
 /// Why nothing can be planned, and what to do.
 std::string refusal(const Budget& budget, const Unplannable& why, const Scene& scene);

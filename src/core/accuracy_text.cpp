@@ -66,6 +66,17 @@ std::string comparison(const std::optional<Offer>& offer, const ClassBill& one,
   return text.str();
 }
 
+/// What the errors were extrapolated from; empty if the whole span was flown.
+std::string onlyFrom(const Bill& bill, const Scene& scene) {
+  const double flown_s = static_cast<double>(bill.ticks_flown) * scene.step_s();
+  if (flown_s >= bill.budget.over_s) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << ", extrapolated from the first " << flown_s
+       << " s, as many bodies or steps leave time for no more";
+  return text.str();
+}
+
 }  // namespace
 
 std::string summary(const ClassBill& one, const Scene& scene) {
@@ -91,12 +102,12 @@ std::string toText(const SpentError& spent, const Scene& scene) {
   return text.str();
 }
 
-std::string refusal(const Budget& budget, const ClassBill& one, const Scene& scene) {
+std::string refusal(const Bill& bill, const ClassBill& one, const Scene& scene) {
   // What exact leaves is the rounding of its start: steps have no part in it.
   const bool helps_step = one.chosen.method.integrator != "exact";
-  return "accuracy: " + summary(budget) + " cannot be kept for body '" +
+  return "accuracy: " + summary(bill.budget) + " cannot be kept for body '" +
          scene.bodies[one.hardest].name + "'; the best there is, " + toText(one.chosen.method) +
-         ", " + leftBy(one.chosen, one.doubt, budget) +
+         ", " + leftBy(one.chosen, one.doubt, bill.budget) + onlyFrom(bill, scene) +
          (helps_step ? "; ask for less, for a shorter span, or take a smaller step_s"
                      : "; ask for less, or for a shorter span");
 }
