@@ -74,6 +74,19 @@ TEST(Caution, FrictionsOfDifferentBodiesDoNot) {
   EXPECT_TRUE(simulator.scene().warnings.empty());
 }
 
+TEST(Caution, IsNotSaidUnderABudgetThatCoversIt) {
+  Scene scene = sceneFrom(fallingUnder("damping: {linear: 60}"));
+  EXPECT_EQ(Simulator(scene).scene().warnings.size(), 1u);
+  scene.accuracy.emplace();  // loose enough for a method that the caution is of
+  scene.accuracy->position_m = 1;
+  scene.accuracy->over_s = 2;
+  const Simulator simulator(scene);
+  const Method& method = simulator.scene().methods.at(0).method;
+  EXPECT_TRUE(integratorNamed(method.integrator).has_drifts);
+  EXPECT_EQ(method.substeps, 1);
+  EXPECT_TRUE(simulator.scene().warnings.empty());
+}
+
 TEST(Caution, OfASwitchComesAfterTheScenesOwn) {
   Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 400}")));
   const std::vector<std::string> at_start = simulator.scene().warnings;

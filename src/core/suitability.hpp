@@ -75,7 +75,7 @@ EffectList effectsOn(const MethodOfBodies& part, const Scene& scene);
 /// The methods of a scene; no bodies means all of them.
 std::vector<MethodOfBodies> methodsOf(const Scene& scene);
 
-/// Cautions, one line each.
+/// Cautions, one line each; none under a budget, whose bill says what the methods get wrong.
 /// @throws std::invalid_argument naming body or effect, if a method of the scene must not step its
 /// bodies, or a body has no method or several
 std::vector<std::string> requireSuitableMethods(const Scene& scene, const Bodies& bodies,
