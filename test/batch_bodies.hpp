@@ -95,7 +95,8 @@ bool sameNumbers(const Matrix& a, const Matrix& b) {
 }
 inline bool sameNumbers(const Bodies& a, const Bodies& b) {
   return sameNumbers(a.p_WBcm, b.p_WBcm) && sameNumbers(a.q_WB, b.q_WB) &&
-         sameNumbers(a.P_WB, b.P_WB) && sameNumbers(a.L_WBcm_W, b.L_WBcm_W);
+         sameNumbers(a.P_WB, b.P_WB) && sameNumbers(a.L_WBcm_W, b.L_WBcm_W) &&
+         sameNumbers(a.p_low, b.p_low);
 }
 
 }  // namespace rigid_body_sim::batch

@@ -28,6 +28,14 @@ TEST(Caution, ThatFrictionStopsABodyWithinAStepSaysHowSlowlyItMoves) {
   }
 }
 
+TEST(Caution, OfWhatKicksWithinFrictionKnowsNoShare) {
+  const std::string friction = fallingUnder("damping: {linear: 60}").substr(1);
+  const Simulator momenta(sceneFrom("{" + friction));
+  EXPECT_TRUE(contains(momenta.scene().warnings.at(0), {"as little as"}));
+  const Simulator velocities(sceneFrom("{integrator: semi_implicit_velocity, " + friction));
+  EXPECT_TRUE(contains(velocities.scene().warnings.at(0), {"a wrong speed"}));
+}
+
 TEST(Caution, ThatNoSubstepsCanMendSaysSo) {
   const Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 1.0e+7}")));  // 1e7 1/s
   ASSERT_EQ(simulator.scene().warnings.size(), 1u);
@@ -54,17 +62,33 @@ TEST(Caution, FrictionsOfABodyCountTogether) {
   EXPECT_TRUE(Simulator(sceneFrom(fallingUnder("damping: {linear: 30}"))).scene().warnings.empty());
   EXPECT_TRUE(Simulator(sceneFrom(fallingUnder(kDashpot))).scene().warnings.empty());
   Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 30}, " + kDashpot)));
-  const double x = 60 * 0.02, share = 0.5 * x / std::sinh(0.5 * x);
-  std::ostringstream said;
-  said << 100 * share << " % of the right speed";
   ASSERT_EQ(simulator.scene().warnings.size(), 1u);
   EXPECT_TRUE(contains(simulator.scene().warnings[0],
-                       {"'flake'", "'damping' and 'spring_damping' together", said.str()}));
+                       {"'flake'", "'damping' and 'spring_damping' together", "at up to 60 1/s",
+                        "a wrong speed", "with 3 substeps"}));
   EXPECT_TRUE(simulator.stiffBody());
+  // Along the line itself it is as for one friction of both.
+  const double x = 60 * 0.02, share = 0.5 * x / std::sinh(0.5 * x);
   simulator.advance(1000);
   const double before = simulator.state(0).p_WBcm.z();
   simulator.step();
   EXPECT_NEAR((before - simulator.state(0).p_WBcm.z()) / 0.02 / (9.8 / 60), share, 1e-6);
+}
+
+TEST(Caution, FrictionThatLeavesNothingOfASpeedSaysSoWithoutDigits) {
+  const Simulator simulator(sceneFrom(fallingUnder("damping: {linear: 4000}")));
+  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+  EXPECT_TRUE(contains(simulator.scene().warnings[0], {"less than 0.01 % of the right speed"}));
+}
+
+TEST(Caution, FrictionsCountOnTheBodyThatHasMost) {
+  const std::string two =
+      "effects: {damping: {linear: 30}, spring: [{body: b, anchor: [0, 0, -1.0e+6], stiffness: 0, "
+      "damping: 30}]}, bodies: {a: {point_mass: 1}, b: {point_mass: 1}}}";
+  const Simulator simulator(sceneFrom("{" + two));
+  ASSERT_EQ(simulator.scene().warnings.size(), 1u);
+  EXPECT_TRUE(contains(simulator.scene().warnings[0], {"'b'", "up to 60 1/s"}));
+  EXPECT_EQ(simulator.stiffBody()->body, 1);
 }
 
 TEST(Caution, FrictionsOfDifferentBodiesDoNot) {

@@ -35,6 +35,18 @@ TEST(Spring, ThatPullsABodyHungByItTurnsItAsAPendulum) {
   EXPECT_TRUE(contains(what, {"body 'b': 'spring'", swings.str()}));
 }
 
+TEST(Spring, DashpotSlowsDownBothItsEnds) {
+  // c (1/m + 1/M), whichever of them is the lighter one.
+  for (const std::string ends : {"body: a, to: b", "body: b, to: a"}) {
+    const std::string what = refusal([&] {
+      Simulator{sceneFrom("{integrator: rk4, effects: {spring: [{" + ends +
+                          ", stiffness: 0, damping: 10}]}, bodies: {a: {point_mass: 1}, b: "
+                          "{point_mass: 0.01, position: [1, 0, 0]}}}")};
+    });
+    EXPECT_TRUE(contains(what, {"'spring_damping'", "slows down at 1010 1/s"}));
+  }
+}
+
 TEST(Spring, BesideFrictionIsRefusedBeforeAMethodOnVelocitiesBecomesInfinite) {
   // These kick between the halves of the friction: (w h)^2 < 2 (1 + exp(-x)), so 1.41 at any x.
   const auto text = [](const std::string& integrator, double swing, double decay) {

@@ -108,6 +108,23 @@ TEST(SteadyEffects, ForOtherBodiesAreWorkedOutAnew) {
   EXPECT_EQ(Vector3d(active.evaluateKicks(one, 0).f_W.row(0)), Vector3d(3 * kGravity));
 }
 
+TEST(SteadyEffects, HaveTheirWorkCounted) {
+  // Under a constant force from rest, (f t)^2 / 2 m.
+  for (const IntegratorRow& row : integrators()) {
+    if (row.order == 1) continue;
+    Scene scene = sceneFrom("{energy_audit: true, bodies: {a: {point_mass: 2}}}");
+    scene.integrator = row.name;
+    Simulator simulator(scene);
+    WrenchInput push;
+    push.applied.wrench.f_F << 3, 0, -4;
+    push.ticks = 50;
+    simulator.apply(push);
+    simulator.advance(60);
+    EXPECT_NEAR(simulator.energy().inputs_J, 25 / 4.0, 1e-12) << row.name;
+    EXPECT_NEAR(simulator.energy().unaccounted_J(), 0, 1e-12) << row.name;
+  }
+}
+
 TEST(SteadyEffects, AreTakenAsSoManyEvaluations) {
   Scene scene = twoBodies();
   scene.integrator = "rk4";

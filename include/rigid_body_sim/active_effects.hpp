@@ -18,9 +18,8 @@ struct EffectCount {
 /// Adds `more` to the counts of the same names.
 void addUp(const std::vector<EffectCount>& more, std::vector<EffectCount>& counts);
 
-/// The effects that act now on a set of bodies, which stay the same with their masses. One virtual
-/// call an effect and evaluation, none if all are steady; an effect that is not in the list costs
-/// nothing at all.
+/// The effects that act now on a set of bodies, which stay the same with their masses. A few
+/// virtual calls an effect and evaluation; an effect that is not in the list costs nothing at all.
 class ActiveEffects {
  public:
   void add(const Effect* effect);

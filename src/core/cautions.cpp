@@ -22,7 +22,7 @@ std::string caution(const Method& method, const EffectList& effects) {
 
 namespace {
 
-/// Friction of all effects together on a body.
+/// Friction of all effects together on a body: a bound, as one may slow down what another does not.
 struct Friction {
   Eigen::Index body = 0;
   Sum sum;
@@ -50,6 +50,8 @@ Friction mostFriction(const EffectList& effects, const Instant& now, double litt
 
 }  // namespace
 
+constexpr double kNothing = 1e-4;  // of a speed: less is not worth a number
+
 std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effects,
                                    const Instant& now, double tick_s) {
   const IntegratorRow& row = integratorNamed(method.integrator);
@@ -59,13 +61,15 @@ std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effec
   if (!(a_step > 1)) return std::nullopt;
   // A steady force f gives f h/2 around each drift, of which exp(-x/2) is left in it; right would
   // be f/c, with x = c h. Nothing as simple holds for friction that grows with the speed, nor
-  // where the kick lies within the flows.
+  // where the kick lies within the flows, or friction is along a line that turns.
   const double share = 0.5 * a_step / std::sinh(0.5 * a_step);
   const bool is_known = sum.is_decay_linear && !kicksWithinFlows(row);
   std::ostringstream why;
-  why << sum.names << (sum.isOfMany() ? " together slow" : " slows") << " it down at " << sum.decays
-      << " 1/s, " << a_step << " times a step: a steady force moves it at ";
-  if (is_known)
+  why << sum.names << (sum.isOfMany() ? " together slow it down at up to " : " slows it down at ")
+      << sum.decays << " 1/s, " << a_step << " times a step: a steady force moves it at ";
+  if (is_known && share < kNothing)
+    why << "less than " << 100 * kNothing << " % of the right speed then; ";
+  else if (is_known)
     why << "as little as " << 100 * share << " % of the right speed then; ";
   else
     why << "a wrong speed then; ";
@@ -74,7 +78,7 @@ std::optional<Fault> stoppedAtOnce(const Method& method, const EffectList& effec
   else
     why << "no number of substeps mends that, but a shorter step_s";
   if (sum.decays * tick_s <= kMostSubsteps * integratorNamed("rk4").max_decay)
-    why << "; rk4, rk8 and adaptive have no such error";
+    why << "; rk4 and rk8 have no such error, in the substeps that they bear it with";
   return Fault{body, why.str()};
 }
 

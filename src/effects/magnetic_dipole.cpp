@@ -67,7 +67,8 @@ EffectList makeMagneticDipole(EffectBlock& block) {
     const Vector3d m_L = block.vector3(member, "dipole", allowed, Vector3d::Zero());
     if (!m_L.isZero(0)) members.add(member.body, block.frameOf(member).q_LB.conjugate() * m_L);
   }
-  if (members.empty() && !block.members.empty()) block.why_nothing = "no body has a dipole";
+  if (members.empty() && !block.members.empty())
+    block.why_nothing = "no body has a dipole, but for point masses, which take no torque";
   if (field_W.isZero(0)) block.why_nothing = "the field is zero";
   if (members.empty() || field_W.isZero(0)) return {};
   return {std::make_shared<MagneticDipole>(field_W, std::move(members))};

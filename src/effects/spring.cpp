@@ -264,7 +264,7 @@ class SpringDamping : public SpringEffect {
       flow(*spring, now, bodies, 0.5 * h);
   }
 
-  /// Bounded as that of ElasticSprings.
+  /// Bounded as that of ElasticSprings. Not linear: the line turns with what moves across it.
   Stiffness stiffness(const Instant& now) const override {
     const Bodies& bodies = now.bodies();
     Eigen::VectorXd rates = Eigen::VectorXd::Zero(bodies.count());
@@ -276,7 +276,7 @@ class SpringDamping : public SpringEffect {
     }
     Eigen::Index stiffest = 0;
     const double rate = rates.maxCoeff(&stiffest);
-    return {0, rate, stiffest, true};
+    return {0, rate, stiffest};
   }
 
   std::shared_ptr<const Effect> restrictedTo(const std::vector<Eigen::Index>& some) const override {

@@ -60,7 +60,7 @@ const std::vector<IntegratorRow>& integrators() {
        "six exact free rotations between seven kicks (Blanes and Moan); any spin", makeExact4},
       {"exact6", 6, 0, true, true, true, true, true, kInf, 3.1, 2, 0, 12, 2.0, 45, false,
        "eleven exact free rotations between twelve kicks (Blanes and Moan); any spin", makeExact6},
-      {"adaptive", 0, 0, false, false, true, false, false, 200, kInf, kInf, kInf, 0, 51, 51, false,
+      {"adaptive", 0, 0, false, false, true, false, false, 200, 200, 200, 6000, 0, 51, 51, false,
        "rk8 in as many steps as `tolerance` wants, a thousand a tick at most; the reference",
        makeAdaptive},
   };

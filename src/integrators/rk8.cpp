@@ -275,8 +275,8 @@ class Adaptive : public Integrator {
  private:
   static constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   /// Of the whole step, however stiff. A thousand steps of 0.2 rad keep any tolerance: hence the
-  /// registry's 200 rad. At 300 a tumbling plate loses 1e-10 of its energy a tick, at 2000 it is
-  /// lost.
+  /// registry's 200 rad, of turns and swings. At 300 a tumbling plate loses 1e-10 of its energy a
+  /// tick, at 2000 it is lost. And a thousand steps bear 6.38 of a decay each, as rk8 does.
   static constexpr double kLeast = 1e-3;
 
   /// What is left of the step, under wrenches that are no numbers: no smaller step would help.

@@ -9,8 +9,6 @@ using diagnostic_msgs::DiagnosticStatus;
 namespace {
 
 /// Of the energy that there is: what a method makes or loses of it beyond this is worth a warning.
-/// It stays until ~reset, so that a close encounter of a few ticks is seen however seldom one
-/// looks.
 constexpr double kNoticeable = 0.01;
 
 }  // namespace
@@ -55,11 +53,14 @@ void Diagnostics::reportEffects(diagnostic_updater::DiagnosticStatusWrapper& sta
   if (!simulator_.frozenBodies().empty())
     return status.add("energy unaccounted for", "not known: a body is frozen");
   status.addf("energy unaccounted for", "%.3g J", energy.unaccounted_J());
-  const double turnover_J =
-      energy.kinetic_J + std::abs(energy.inputs_J) + std::abs(energy.effects_J);
-  if (std::abs(energy.unaccounted_J()) > kNoticeable * turnover_J)
-    status.mergeSummaryf(DiagnosticStatus::WARN, "%.3g J are unaccounted for: steps too long",
-                         energy.unaccounted_J());
+  const double all_J = energy.kinetic_J + std::abs(energy.potential_J) + std::abs(energy.start_J) +
+                       std::abs(energy.inputs_J) + std::abs(energy.effects_J);
+  if (!lost_ && !(std::abs(energy.unaccounted_J()) <= kNoticeable * all_J))
+    lost_ = Lost{energy.unaccounted_J(), simulator_.tick()};
+  if (lost_)
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "%.3g J were unaccounted for at tick %ld: steps too long", lost_->energy_J,
+                         static_cast<long>(lost_->tick));
 }
 
 void Diagnostics::reportPace(diagnostic_updater::DiagnosticStatusWrapper& status) {

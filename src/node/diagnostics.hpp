@@ -3,6 +3,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <optional>
+
 #include "node/inputs.hpp"
 #include "node/pace.hpp"
 
@@ -15,7 +17,16 @@ class Diagnostics {
   Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const Inputs& inputs, Pace& pace,
               double real_time_factor);
 
+  /// The simulation begins anew: what it lost before is forgotten.
+  void reset() { lost_.reset(); }
+
  private:
+  /// Energy that nothing accounts for, when there was first too much of it.
+  struct Lost {
+    double energy_J;
+    Tick tick;
+  };
+
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportEffects(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -35,6 +46,7 @@ class Diagnostics {
   Tick last_tick_ = 0;
   std::uint64_t last_refused_ = 0;
   std::uint64_t last_rebases_ = 0;
+  std::optional<Lost> lost_;
 };
 
 }  // namespace rigid_body_sim

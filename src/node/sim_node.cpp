@@ -162,6 +162,7 @@ bool SimNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& re
   publishTick();
   outputs_.serveNewSubscribers();
   simulator_.reset();
+  diagnostics_.reset();
   frozen_told_ = 0;
   is_published_ = false;
   publishTick();

@@ -124,12 +124,8 @@ RBS_INLINE Phase<S> nextPhase(const Phase<S>& x, const Jacobi<S>& f, const S& kc
   // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
   const S k2cn2 = (1 - kc2) * (f.cn * f.cn);
   const S i = 1 / (x.d * x.d + k2cn2 * (x.s * x.s));
-  S s = (x.s * (f.cn * f.dn) + f.sn * (x.c * x.d)) * i;
-  S c = (x.c * f.cn - f.sn * f.dn * (x.s * x.d)) * i;
-  // Back to s^2 + c^2 = 1 by a Newton step.
-  const S unit = 1.5 - 0.5 * (s * s + c * c);
-  s = unit * s;
-  c = unit * c;
+  const S s = (x.s * (f.cn * f.dn) + f.sn * (x.c * x.d)) * i;
+  const S c = (x.c * f.cn - f.sn * f.dn * (x.s * x.d)) * i;
   return {s, c, root(c * c + kc2 * (s * s))};
 }
 
