@@ -12,10 +12,10 @@ struct Trouble {
   Fault fault;
 };
 
-/// Flies the beginning of the scene, as much as takes a tenth of a second (not with `adaptive`, whose
-/// steps may be many), and looks at every tick: forces at the start say nothing of a pendulum on a
-/// spring that is not stretched yet, of a fall past a heavy centre, or of the drag of a body dropped
-/// from rest.
+/// Flies the beginning of the scene, as much as takes a tenth of a second (not with `adaptive`,
+/// whose steps may be many), and looks at every tick: forces at the start say nothing of a pendulum
+/// on a spring that is not stretched yet, of a fall past a heavy centre, or of the drag of a body
+/// dropped from rest.
 /// @param bodies as they are at the start
 /// @returns what comes first, but not what is there from the beginning
 std::optional<Trouble> firstTrouble(const Scene& scene, const Bodies& bodies);
