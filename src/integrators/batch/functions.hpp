@@ -1,6 +1,6 @@
 #pragma once
 
-#include "integrators/batch/pack.hpp"
+#include "integrators/batch/pair.hpp"
 #include "integrators/batch/rare.hpp"
 
 // Sine and cosine of our own, as those of the C library have no form for packs, and other last bits
@@ -71,14 +71,14 @@ RBS_INLINE SinCos<S> sinCosOfModerate(S x) {
 }
 
 RBS_INLINE void setOfHuge(double x, double& sin, double& cos) { sinCosOfHuge(x, &sin, &cos); }
-template <int w>
-[[gnu::cold, gnu::noinline]] void replaceHuge(const Pack<w>& x, SinCos<Pack<w>>& f) {
-  for (int i = 0; i < w; ++i) {
-    if (__builtin_fabs(x.lanes[i]) <= kLargestAngle) continue;
+template <class S>
+[[gnu::cold, gnu::noinline]] void replaceHuge(const S& x, SinCos<S>& f) {
+  for (int i = 0; i < kWidth<S>; ++i) {
+    if (__builtin_fabs(lane(x, i)) <= kLargestAngle) continue;
     double s, c;
-    setOfHuge(x.lanes[i], s, c);
-    f.sin.lanes[i] = s;
-    f.cos.lanes[i] = c;
+    setOfHuge(lane(x, i), s, c);
+    setLane(f.sin, i, s);
+    setLane(f.cos, i, c);
   }
 }
 RBS_INLINE void replaceHuge(double x, SinCos<double>& f) { setOfHuge(x, f.sin, f.cos); }

@@ -11,7 +11,7 @@ namespace rigid_body_sim::batch {
 /// The functions of one instruction set. They work in place, on the bodies of a range.
 struct Kernels {
   const char* name;
-  int width;  ///< numbers in a register
+  int width;  ///< bodies that are worked on side by side
 
   /// Whether all numbers of the states are finite.
   bool (*areFinite)(const BodyColumns&, Range);

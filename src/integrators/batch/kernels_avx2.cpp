@@ -7,7 +7,7 @@ namespace rigid_body_sim::batch {
 
 void fillAvx2(Kernels& table) {
   table.name = "avx2";
-  fillTable<Pack<4>>(table);
+  fillTable<Pair<Pack<4>>>(table);
 }
 
 }  // namespace rigid_body_sim::batch

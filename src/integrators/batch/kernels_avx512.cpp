@@ -7,7 +7,7 @@ namespace rigid_body_sim::batch {
 
 void fillAvx512(Kernels& table) {
   table.name = "avx512";
-  fillTable<Pack<8>>(table);
+  fillTable<Pair<Pack<8>>>(table);
 }
 
 }  // namespace rigid_body_sim::batch

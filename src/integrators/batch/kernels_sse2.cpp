@@ -7,7 +7,7 @@ namespace rigid_body_sim::batch {
 
 void fillSse2(Kernels& table) {
   table.name = "sse2";
-  fillTable<Pack<2>>(table);
+  fillTable<Pair<Pack<2>>>(table);
 }
 
 }  // namespace rigid_body_sim::batch

@@ -296,17 +296,36 @@ struct NumberOfPlace<const At<S, is_part>&> {
 template <class Place>
 using NumberOf = typename NumberOfPlace<Place>::Type;
 
+/// A lane's number.
+RBS_INLINE double lane(double x, int) { return x; }
+RBS_INLINE void setLane(double& x, int, double value) { x = value; }
+template <int w>
+RBS_INLINE double lane(const Pack<w>& x, int i) {
+  return x.lanes[i];
+}
+template <int w>
+RBS_INLINE void setLane(Pack<w>& x, int i, double value) {
+  x.lanes[i] = value;
+}
+
 /// Calls `work` for all numbers from `begin` to `end`, a pack at a time. A single one is worked on
 /// as a plain double, which costs it least.
+template <class S>
+struct Packs {
+  template <class Work>
+  RBS_INLINE static void forAll(std::ptrdiff_t begin, std::ptrdiff_t end, const Work& work) {
+    constexpr int width = kWidth<S>;
+    for (; begin + width <= end; begin += width) work(At<S, false>{begin});
+    if (width == 1 || begin == end) return;
+    if (begin + 1 == end)
+      work(At<double, false>{begin});
+    else
+      work(At<S, true>{begin, static_cast<int>(end - begin)});
+  }
+};
 template <class S, class Work>
 RBS_INLINE void forPacks(std::ptrdiff_t begin, std::ptrdiff_t end, const Work& work) {
-  constexpr int width = kWidth<S>;
-  for (; begin + width <= end; begin += width) work(At<S, false>{begin});
-  if (width == 1 || begin == end) return;
-  if (begin + 1 == end)
-    work(At<double, false>{begin});
-  else
-    work(At<S, true>{begin, static_cast<int>(end - begin)});
+  Packs<S>::forAll(begin, end, work);
 }
 
 }  // namespace

@@ -94,21 +94,6 @@ RBS_INLINE Coasting<S> standingStill() {
       {none, one, one},        {one, none}};
 }
 
-template <class S>
-RBS_INLINE double lane(const S& x, int i) {
-  if constexpr (kWidth<S> == 1)
-    return x;
-  else
-    return x.lanes[i];
-}
-template <class S>
-RBS_INLINE void setLane(S& x, int i, double value) {
-  if constexpr (kWidth<S> == 1)
-    x = value;
-  else
-    x.lanes[i] = value;
-}
-
 /// m = R^T L anew, where `mask`.
 template <class S>
 [[gnu::cold, gnu::noinline]] Vector<S> momentumAnew(typename MaskOf<S>::Type mask,
@@ -315,83 +300,42 @@ template <class Place, class M>
   storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
 }
 
-/// How many bodies go through the parts of a drift together. Parts, as the processor looks only so
-/// far ahead: of a whole drift it would see one pack at a time, and wait for each root in it.
-constexpr std::ptrdiff_t kTogether = 32;
-
-/// Phases of bodies that are together in a part.
-class Phases {
- public:
-  explicit Phases(std::ptrdiff_t first) : first_(first) {}
-
-  template <class Place, class S>
-  RBS_INLINE void store(const Place& at, const Phase<S>& x) {
-    at.storeTo(s_ + (at.begin - first_), x.s);
-    at.storeTo(c_ + (at.begin - first_), x.c);
-    at.storeTo(d_ + (at.begin - first_), x.d);
-  }
-  template <class Place>
-  RBS_INLINE Phase<typename Place::Number> load(const Place& at) const {
-    const std::ptrdiff_t i = at.begin - first_;
-    return {at.loadFrom(s_ + i), at.loadFrom(c_ + i), at.loadFrom(d_ + i)};
-  }
-
- private:
-  std::ptrdiff_t first_;
-  double s_[kTogether], c_[kTogether], d_[kTogether];
-};
-
-/// First part: bodies that do not coast, and the next phase of those that do.
+/// A step of lanes that coast.
 template <class Place>
-RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h,
-                          Phases& next) {
-  recallSpins(at, bodies, tiles);
-  const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const auto spins = !isZero(tile.loadVector(kSpinL));
-  const auto goes_on = spins & (tile.load(kSpinDrift) == h);
-  if (any(goes_on)) {
-    const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
-    if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
-    next.store(at, nextPhase(loadPhase(tile), loadOfStep(tile), tile.load(kCoastKc2)));
-  }
-  const auto rotates = spins & !goes_on;
-  if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
-}
-
-/// Second part: how far they turn.
-template <class Place>
-RBS_INLINE void turnCoasting(const Place& at, double* tiles, const Phases& next) {
+RBS_INLINE void coast(const Place& at, const BodyColumns& bodies, double* tiles) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const auto coasts = tile.load(kSpinIsCoasting) == 1;
   if (!any(coasts)) return;
   auto x = loadCoasting(tile);
-  const auto phase = next.load(at);
+  const auto phase = nextPhase(x.phase, x.of_step, x.kc2);
   x.psi = nextPsi(x, x.phase, phase);
   x.phase = phase;
   storeMoved(tile, coasts, x);
-}
-
-/// Third part: their attitudes.
-template <class Place>
-RBS_INLINE void setCoastingAttitudes(const Place& at, const BodyColumns& bodies, double* tiles) {
-  const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const auto coasts = tile.load(kSpinIsCoasting) == 1;
-  if (!any(coasts)) return;
-  const auto q_WB = select(coasts, attitudeOf(loadCoasting(tile)), tile.loadQuaternion(kSpinQ));
+  const auto q_WB = select(coasts, attitudeOf(x), tile.loadQuaternion(kSpinQ));
   tile.storeQuaternion(kSpinQ, q_WB);
   storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
 }
 
+template <class Place>
+RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
+  recallSpins(at, bodies, tiles);
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  const auto spins = !isZero(tile.loadVector(kSpinL));
+  const auto goes_on = spins & (tile.load(kSpinDrift) == h);
+  const auto rotates = spins & !goes_on;
+  if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
+  const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
+  if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
+  coast(at, bodies, tiles);
+}
+
 template <class S>
-void driftSpins(const BodyColumns& bodies, double* tiles, double h, Range range) {
-  for (std::ptrdiff_t i = range.begin; i < range.end; i += kTogether) {
-    const std::ptrdiff_t end = i + kTogether < range.end ? i + kTogether : range.end;
-    Phases next(i);
-    driftPositions<S>(bodies, h, {i, end});
-    forPacks<S>(i, end, [&](const auto& at) { moveSpins(at, bodies, tiles, h, next); });
-    forPacks<S>(i, end, [&](const auto& at) { turnCoasting(at, tiles, next); });
-    forPacks<S>(i, end, [&](const auto& at) { setCoastingAttitudes(at, bodies, tiles); });
-  }
+void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
+  const BodyColumns bodies = of;
+  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+    driftPosition(at, bodies, loadVector(at, bodies.P_WB, bodies.stride), h);
+    moveSpins(at, bodies, tiles, h);
+  });
 }
 
 }  // namespace

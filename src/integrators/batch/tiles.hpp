@@ -15,8 +15,14 @@ class InTile {
   RBS_INLINE InTile(const Place& at, double* tiles)
       : at_(at), first_(tiles + at.begin / kTile * kTile * numbers + at.begin % kTile) {}
 
-  RBS_INLINE S load(int number) const { return at_.loadFrom(first_ + kTile * number); }
-  RBS_INLINE void store(int number, S x) const { at_.storeTo(first_ + kTile * number, x); }
+  RBS_INLINE S load(int number) const {
+    if constexpr (kIsPair<S>) return at_.loadFrom(first_ + kTile * number, kGap);
+    return at_.loadFrom(first_ + kTile * number);
+  }
+  RBS_INLINE void store(int number, S x) const {
+    if constexpr (kIsPair<S>) return at_.storeTo(first_ + kTile * number, x, kGap);
+    at_.storeTo(first_ + kTile * number, x);
+  }
   RBS_INLINE Vector<S> loadVector(int number) const {
     return {load(number), load(number + 1), load(number + 2)};
   }
@@ -36,6 +42,9 @@ class InTile {
   }
 
  private:
+  /// From a pair's first pack to its second, which may be in the next tile.
+  static constexpr std::ptrdiff_t kGap = kWidth<S> > kTile ? kTile* numbers : kWidth<S> / 2;
+
   Place at_;
   double* first_;
 };
