@@ -31,8 +31,8 @@ template <class M, class S>
   a.now = select(is_ordinary, a.now, inversePower(now) * a.now);
   a.wanted = select(is_ordinary, a.wanted, inversePower(wanted) * a.wanted);
   a.cosine = dot(a.now, a.wanted);
-  a.turns = (is_ordinary & a.turns) | (!is_ordinary & is_directed & (a.cosine > 1e-3));
-  const auto is_left = !a.turns & !is_ordinary;
+  a.turns = (is_ordinary & a.turns) | ((is_directed & (a.cosine > 1e-3)) & !is_ordinary);
+  const auto is_left = !(a.turns | is_ordinary);
   const S none(0.0);
   a.now = select(is_left, {none, none, none}, a.now);
   a.cosine = select(is_left, S(1.0), a.cosine);

@@ -300,20 +300,19 @@ template <class Place, class M>
   storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
 }
 
-/// A step of lanes that coast.
-template <class Place>
-RBS_INLINE void coast(const Place& at, const BodyColumns& bodies, double* tiles) {
-  const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const auto coasts = tile.load(kSpinIsCoasting) == 1;
-  if (!any(coasts)) return;
-  auto x = loadCoasting(tile);
-  const auto phase = nextPhase(x.phase, x.of_step, x.kc2);
-  x.psi = nextPsi(x, x.phase, phase);
-  x.phase = phase;
-  storeMoved(tile, coasts, x);
-  const auto q_WB = select(coasts, attitudeOf(x), tile.loadQuaternion(kSpinQ));
-  tile.storeQuaternion(kSpinQ, q_WB);
-  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
+/// A step of lanes that coast. @param q_WB of all lanes @returns what it becomes
+template <class Tile, class M, class S>
+RBS_INLINE Quaternion<S> coast(const Tile& tile, M coasts, const Quaternion<S>& q_WB) {
+  const Coasting<S> x = loadCoasting(tile);
+  Coasting<S> next = x;
+  next.phase = nextPhase(x.phase, x.of_step, x.kc2);
+  next.psi = nextPsi(x, x.phase, next.phase);
+  tile.store(kCoastPhase, select(coasts, next.phase.s, x.phase.s));
+  tile.store(kCoastPhase + 1, select(coasts, next.phase.c, x.phase.c));
+  tile.store(kCoastPhase + 2, select(coasts, next.phase.d, x.phase.d));
+  tile.store(kCoastPsi, select(coasts, next.psi.cos, x.psi.cos));
+  tile.store(kCoastPsi + 1, select(coasts, next.psi.sin, x.psi.sin));
+  return select(coasts, attitudeOf(next), q_WB);
 }
 
 template <class Place>
@@ -326,7 +325,10 @@ RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* ti
   if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
   const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
   if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
-  coast(at, bodies, tiles);
+  if (!any(goes_on)) return;
+  const auto q_WB = coast(tile, goes_on, loadQuaternion(at, bodies.q_WB, bodies.stride));
+  tile.storeQuaternion(kSpinQ, q_WB);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
 }
 
 template <class S>
