@@ -120,6 +120,9 @@ void addAll(const Kernels& k) {
     k.driftSpins(s.bodies(), spins, kStep, r);
     k.kickSpins(s.bodies(), s.wrenches(), spins, 0.5 * kStep, r);
   });
+  add("exact_steady/" + name, [&k](Scene& s, Range r) {
+    k.flySpins(s.bodies(), s.wrenches(), s.spins.data(), 0.5 * kStep, kStep, 0.5 * kStep, r);
+  });
 }
 
 }  // namespace

@@ -47,6 +47,24 @@ void spinSteps(const Kernels& k, Bodies& bodies, const Pushes& pushes, double h,
   }
 }
 
+/// The same in one pass, or part by part; with no kick at the end now and then.
+template <bool at_once>
+void flownSpins(const Kernels& k, Bodies& bodies, const Pushes& pushes, double h, Range range) {
+  std::vector<double> tiles(tileSize(bodies.count(), kSpinNumbers));
+  const BodyColumns columns = columnsOf(bodies);
+  const WrenchColumns wrenches = columnsOf(pushes);
+  for (int i = 0; i < 12; ++i) {
+    const double before_s = 0.3 * h, after_s = i % 5 == 3 ? 0 : 0.5 * h;
+    if (at_once) {
+      k.flySpins(columns, wrenches, tiles.data(), before_s, h, after_s, range);
+      continue;
+    }
+    k.kickSpins(columns, wrenches, tiles.data(), before_s, range);
+    k.driftSpins(columns, tiles.data(), h, range);
+    if (after_s != 0) k.kickSpins(columns, wrenches, tiles.data(), after_s, range);
+  }
+}
+
 std::vector<Work> works() {
   return {
       repeated("Kick", [](auto& k, auto& b, auto& w, double h, Range r) { k.kick(b, w, h, r); }),
@@ -81,6 +99,7 @@ std::vector<Work> works() {
          rk4Steps(k.rk4StageWithoutGyroscopicTerm, b, w, h, r);
        }},
       {"Spins", spinSteps},
+      {"FlownSpins", flownSpins<true>},
   };
 }
 
@@ -153,6 +172,19 @@ TEST(Rk4Steady, HasTheBitsOfItsStages) {
         for (int i = 0; i < kSteps; ++i) whole(columnsOf(at_once), &wrenches, 0.02, {0, kCount});
         EXPECT_TRUE(sameNumbers(at_once, by_stages)) << k.name;
       }
+}
+
+TEST(FlownSpins, HaveTheBitsOfKickDriftAndKick) {
+  constexpr Eigen::Index kCount = 150;
+  for (const Kernels& k : availableKernels())
+    for (const Eigen::Index turned : {kCount, Eigen::Index(70), Eigen::Index(0)}) {
+      Pushes pushes = somePushes(kCount);
+      pushes.t_Bcm_W.bottomRows(kCount - turned).setZero();
+      Bodies at_once = someBodies(kCount), in_parts = at_once;
+      flownSpins<true>(k, at_once, pushes, 0.02, {0, kCount});
+      flownSpins<false>(k, in_parts, pushes, 0.02, {0, kCount});
+      EXPECT_TRUE(sameNumbers(at_once, in_parts)) << k.name << " " << turned;
+    }
 }
 
 TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {

@@ -57,22 +57,57 @@ class Exact : public Integrator {
   void step(Bodies& bodies, ActiveEffects& effects, double time_s, double h) override {
     spins_.resize(bodies.count());
     if (effects.empty()) return drift(bodies, h);
+    if (effects.areSteady())
+      return stepSteadily(bodies, effects.evaluateSteady(bodies, time_s, kickCount()), h);
     double t = time_s;
     for (std::size_t i = 0; i < composition_.kicks.size(); ++i) {
-      if (effects.hasKicks()) {
-        const double kick_s = composition_.kicks[i] * h;
-        const Wrenches& wrenches = effects.evaluateKicks(bodies, t, kick_s);
-        kernels_.kickSpins(columnsOf(bodies), columnsOf(wrenches), spins_.data(), kick_s,
-                           allOf(bodies));
+      const double kick_s = composition_.kicks[i] * h;
+      const Wrenches* wrenches =
+          effects.hasKicks() ? &effects.evaluateKicks(bodies, t, kick_s) : nullptr;
+      if (i == composition_.drifts.size()) {
+        if (wrenches) kick(bodies, *wrenches, kick_s);
+        break;
       }
-      if (i == composition_.drifts.size()) break;
       const double drift_s = composition_.drifts[i] * h;
-      driftUnderFlows(bodies, effects, t, drift_s);
+      if (wrenches && !effects.hasFlows()) {
+        fly(bodies, *wrenches, kick_s, drift_s, 0);
+      } else {
+        if (wrenches) kick(bodies, *wrenches, kick_s);
+        driftUnderFlows(bodies, effects, t, drift_s);
+      }
       t += drift_s;
     }
   }
 
  private:
+  unsigned kickCount() const { return static_cast<unsigned>(composition_.kicks.size()); }
+
+  /// Under wrenches that stay the same.
+  void stepSteadily(Bodies& bodies, const Wrenches& wrenches, double h) {
+    const std::size_t last = composition_.drifts.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i)
+      fly(bodies, wrenches, composition_.kicks[i] * h, composition_.drifts[i] * h,
+          i == last ? composition_.kicks[i + 1] * h : 0);
+  }
+
+  /// A kick, a drift and perhaps another kick.
+  void fly(Bodies& bodies, const Wrenches& by, double before_s, double h, double after_s) {
+    const batch::BodyColumns columns = columnsOf(bodies);
+    const batch::WrenchColumns wrenches = columnsOf(by);
+    ungyroscopic_.forRuns(bodies.count(), [&](batch::Range range, Gyroscopic gyroscopic) {
+      if (gyroscopic == Gyroscopic::kOn)
+        return kernels_.flySpins(columns, wrenches, spins_.data(), before_s, h, after_s, range);
+      kernels_.kickSpins(columns, wrenches, spins_.data(), before_s, range);
+      kernels_.driftWithoutGyroscopicTerm(columns, h, range);
+      if (after_s != 0) kernels_.kickSpins(columns, wrenches, spins_.data(), after_s, range);
+    });
+  }
+
+  void kick(Bodies& bodies, const Wrenches& wrenches, double kick_s) {
+    kernels_.kickSpins(columnsOf(bodies), columnsOf(wrenches), spins_.data(), kick_s,
+                       allOf(bodies));
+  }
+
   void driftUnderFlows(Bodies& bodies, ActiveEffects& effects, double time_s, double h) {
     if (!effects.hasFlows()) return drift(bodies, h);
     effects.beforeDrift(bodies, time_s, h);

@@ -39,10 +39,14 @@ struct Kernels {
   using Rk4Steady = void (*)(const BodyColumns&, const WrenchColumns*, double h, Range);
   Rk4Steady rk4Steady, rk4SteadyWithoutGyroscopicTerm;
 
-  // Kicks and exact free flight, with `tiles` of kSpinNumbers. Both take up first the bodies whose
+  // Kicks and exact free flight, with `tiles` of kSpinNumbers. All take up first the bodies whose
   // attitude or angular momentum somebody else has changed.
   void (*kickSpins)(const BodyColumns&, const WrenchColumns&, double* tiles, double h, Range);
   void (*driftSpins)(const BodyColumns&, double* tiles, double h, Range);
+  /// A kick of `before_s`, a drift of h and, unless it is 0, a kick of `after_s` with the same
+  /// wrenches, in one pass over memory.
+  void (*flySpins)(const BodyColumns&, const WrenchColumns&, double* tiles, double before_s,
+                   double h, double after_s, Range);
 };
 
 /// Those that this processor has, from the narrowest to the widest; the first is plain C++.

@@ -340,5 +340,26 @@ void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
   });
 }
 
+template <class S>
+void flySpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, double before_s,
+              double h, double after_s, Range range) {
+  const BodyColumns bodies = of;
+  const WrenchColumns wrenches = by;
+  forPacks<S>(range.begin, range.end, [=](const auto& at) {
+    using T = NumberOf<decltype(at)>;
+    const Vector<T> f_W = loadVector(at, wrenches.f_W, wrenches.stride);
+    const Vector<T> t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
+    const auto turns = !isZero(t_W);
+    const bool any_turns = any(turns);
+    Vector<T> P_WB = loadVector(at, bodies.P_WB, bodies.stride) + before_s * f_W;
+    driftPosition(at, bodies, P_WB, h);
+    if (after_s != 0) P_WB = P_WB + after_s * f_W;
+    storeVector(at, bodies.P_WB, bodies.stride, P_WB);
+    if (any_turns) kickMomenta(at, bodies, tiles, before_s * t_W, turns);
+    moveSpins(at, bodies, tiles, h);
+    if (any_turns && after_s != 0) kickMomenta(at, bodies, tiles, after_s * t_W, turns);
+  });
+}
+
 }  // namespace
 }  // namespace rigid_body_sim::batch

@@ -32,6 +32,7 @@ void fillTable(Kernels& table) {
   table.rk4SteadyWithoutGyroscopicTerm = rk4Steady<S, false>;
   table.kickSpins = kickSpins<S>;
   table.driftSpins = driftSpins<S>;
+  table.flySpins = flySpins<S>;
 }
 
 }  // namespace
