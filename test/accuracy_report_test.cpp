@@ -360,7 +360,8 @@ TEST(ReportTable, SaysWhatEachRowIsAndHowGoodTheReferenceIs) {
   print(make(planOf("dzhanibekov", 60), silently), out);
   EXPECT_TRUE(contains(
       out.str(), {"dzhanibekov: one body, a tick of 0.02 s, over 60 s (3000 ticks)", "Reference: ",
-                  "In doubt by at most", "attitude [rad]", "infinite after 5", "rad: exact, "}));
+                  "In doubt by at most", "attitude [rad]", "infinite after 5",
+                  "rad: exact"}));  // or exact4, which coasts at the same price: times are noisy
   for (const IntegratorRow& rung : integrators())
     EXPECT_TRUE(contains(out.str(), {"\n" + rung.name + " "}));
 }

@@ -67,8 +67,9 @@ double errorOf(const Report& report, const Row& row);
 /// How far the true flight itself is to be trusted, in the same unit.
 double doubtOf(const Report& report);
 
-/// Costs that differ by less than this factor count as equal: the clock's noise.
-constexpr double kSameCost = 1.05;
+/// Costs that differ by less than this factor count as equal: the noise of the clock beside other
+/// programs, with which equal steps were seen to differ by a ninth.
+constexpr double kSameCost = 1.2;
 
 /// Whether `by` is at least as accurate and as cheap, and better in one; of equals, the first of
 /// the rows. Errors count as equal if they differ by no more than the doubt, or are below it.
