@@ -181,6 +181,11 @@ TEST(AnEmptyBlock, ThatTheParameterServerDroppedEndsTheNodeWithOneAndItsPath) {
   EXPECT_TRUE(Node("scene_file: " + file.path() + "\n" + kBall).runs());
 }
 
+TEST(ASceneFile, ThatCannotBeReadEndsTheNodeWithOneAndSaysFromWhere) {
+  expectRefusal("scene_file: nowhere.yaml\n" + std::string(kBall),
+                {"scene_file", "'nowhere.yaml'", "cannot be read", "absolute"});
+}
+
 TEST(SimTimeWithoutAClock, EndsTheNodeWithOneAndALineThatNamesBoth) {
   ros::param::set("/use_sim_time", true);
   expectRefusal(std::string(kBall) + "\npublish_clock: false",
@@ -191,8 +196,8 @@ TEST(SimTimeWithoutAClock, EndsTheNodeWithOneAndALineThatNamesBoth) {
 TEST(AUrdf, IsFoundBesideTheSceneFileAndInAParameter) {
   const TemporaryFile file("ball.urdf", ballUrdf("1"));
   const std::size_t slash = file.path().rfind('/');
-  Node from_file("scene_file: " + file.path().substr(0, slash) + "/scene.yaml\nurdf: [" +
-                 file.path().substr(slash + 1) + "]");
+  const TemporaryFile scene("scene.yaml", "");
+  Node from_file("scene_file: " + scene.path() + "\nurdf: [" + file.path().substr(slash + 1) + "]");
   EXPECT_TRUE(from_file.runs()) << from_file.said();
   ros::param::set("/good_description", ballUrdf("1"));
   Node from_parameter("urdf_parameter: good_description");

@@ -29,7 +29,7 @@ Diagnostics::Diagnostics(ros::NodeHandle& nh, const Simulator& simulator, const 
 }
 
 void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  status.summary(DiagnosticStatus::OK, "simulating");
+  status.summary(DiagnosticStatus::OK, is_paused_ ? "paused" : "simulating");
   status.add("scene", summary(simulator_.scene()));
   status.add("tick", simulator_.tick());
   reportEffects(status);

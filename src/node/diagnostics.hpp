@@ -20,6 +20,8 @@ class Diagnostics {
   /// The simulation begins anew: what it lost before is forgotten.
   void reset() { lost_.reset(); }
 
+  void setPaused(bool is_paused) { is_paused_ = is_paused; }
+
  private:
   /// Energy that nothing accounts for, when there was first too much of it.
   struct Lost {
@@ -46,6 +48,7 @@ class Diagnostics {
   Tick last_tick_ = 0;
   std::uint64_t last_refused_ = 0;
   std::uint64_t last_rebases_ = 0;
+  bool is_paused_ = false;
   std::optional<Lost> lost_;
 };
 

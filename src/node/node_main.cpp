@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -39,12 +40,15 @@ Value privateParameters(const ros::NodeHandle& private_nh) {
   return toValue(all);
 }
 
-/// If the parameters came from a file that is there.
+/// If the parameters came from a file.
 void requireWholeScene(const Parameters& parameters, const Value& given) {
   if (!parameters.has("scene_file")) return;
   const std::string name = parameters.text("scene_file");
   std::ifstream file(name);
-  if (!file) return;
+  if (!file)
+    throw std::invalid_argument("scene_file: '" + name + "' cannot be read, seen from the folder " +
+                                std::filesystem::current_path().string() +
+                                "; roslaunch needs the absolute path, as scene:=$PWD/scene.yaml");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   refuseDroppedBlocks(readYaml(text, name), given, name);
 }

@@ -128,6 +128,7 @@ void SimNode::setPaused(bool is_paused) {
   if (is_paused) outputs_.publishRest();
   paused_ = is_paused;
   outputs_.setPaused(is_paused);
+  diagnostics_.setPaused(is_paused);
   if (is_paused && !options_.publish_clock)
     ROS_WARN(
         "paused without /clock: the stamps of other nodes run ahead of this simulation's time; "

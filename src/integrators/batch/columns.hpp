@@ -31,7 +31,8 @@ struct WrenchColumns {
 
 /// Numbers that a method keeps of each body for itself, in tiles of eight bodies: all their first
 /// numbers, all their second, and so on. A step reads one stretch of memory, whose columns cannot
-/// push each other out of the cache. Ranges begin at a multiple of eight.
+/// push each other out of the cache. Ranges begin at a multiple of
+/// eight, or end within the tile that they begin in.
 constexpr std::ptrdiff_t kTile = 8;
 
 /// How many numbers the tiles of `count` bodies take.

@@ -35,7 +35,8 @@ struct Kernels {
                             const WrenchColumns&, double* tiles, int stage, double h, Range);
   Rk4Stage rk4Stage, rk4StageWithVelocity, rk4StageWithoutGyroscopicTerm;
 
-  /// The whole step under wrenches that are the same at each stage; null for none. The same bits.
+  /// The whole step under wrenches that are the same at each stage, with the bits of the stages;
+  /// null for none, and positions are then those of driftPositions.
   using Rk4Steady = void (*)(const BodyColumns&, const WrenchColumns*, double h, Range);
   Rk4Steady rk4Steady, rk4SteadyWithoutGyroscopicTerm;
 

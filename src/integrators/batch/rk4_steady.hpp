@@ -70,7 +70,7 @@ void rk4Steady(const BodyColumns& of, const WrenchColumns* by, double h, Range r
                                 loadVector(at, bodies.L_WBcm_W, n)};
     const bool is_torque_free = all(isZero(t_W));
     if (is_torque_free && all(isZero(before.L_W)))
-      return storeVector(at, bodies.L_WBcm_W, n, before.L_W + t_W);  // -0 becomes 0, as elsewhere
+      return storeVector(at, bodies.L_WBcm_W, n, afterSteadyStep(before.L_W, t_W, h));
     const Vector<T> I = loadVector(at, bodies.I_BBcm_B, n);
     const Rotation<T> after = is_torque_free ? rk4Rotation<gyroscopic, false>(before, I, t_W, h)
                                              : rk4Rotation<gyroscopic, true>(before, I, t_W, h);
