@@ -14,14 +14,15 @@ struct Agreement {
   typename MaskOf<S>::Type turns;
 };
 
-/// Denormal numbers have lost digits: a vector of them has no direction.
+/// As in body_momentum.hpp.
 constexpr double kLeastDirected = 1e-290;
 
 /// Within, products of two components keep their digits.
 constexpr double kLeastProduct = 1e-280, kLargestProduct = 1e280;
 
 /// Scales the vectors of those that are not `is_ordinary` by powers of two, so that they can be
-/// compared; those that cannot be, nor turned, become zero, with the cosine 1.
+/// compared; those that cannot be, nor turned, become zero, with the cosine 1. Scaled ones are of
+/// about unit length: a cosine below 1e-3 is one of vectors far apart.
 template <class M, class S>
 [[gnu::cold, gnu::noinline]] Agreement<S> withExtremesScaled(M is_ordinary, Vector<S> before,
                                                              Agreement<S> a) {

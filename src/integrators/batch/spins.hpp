@@ -315,6 +315,8 @@ RBS_INLINE Quaternion<S> coast(const Tile& tile, M coasts, const Quaternion<S>& 
   return select(coasts, attitudeOf(next), q_WB);
 }
 
+/// The rotation in a drift of h [s]: bodies that drift as long as before coast, the others are
+/// turned.
 template <class Place>
 RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
   recallSpins(at, bodies, tiles);
@@ -340,6 +342,7 @@ void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
   });
 }
 
+/// A kick of `before_s`, a drift of h, and unless it is 0 a kick of `after_s` [s].
 template <class S>
 void flySpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, double before_s,
               double h, double after_s, Range range) {

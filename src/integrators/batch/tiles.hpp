@@ -43,7 +43,7 @@ class InTile {
 
  private:
   /// From a pair's first pack to its second, which may be in the next tile.
-  static constexpr std::ptrdiff_t kGap = kWidth<S> > kTile ? kTile* numbers : kWidth<S> / 2;
+  static constexpr std::ptrdiff_t kGap = kTile < kWidth<S> ? numbers * kTile : kWidth<S> / 2;
 
   Place at_;
   double* first_;
