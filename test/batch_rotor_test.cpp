@@ -134,14 +134,11 @@ TEST(BatchRotor, IsBitEqualAtEveryScaleByPowersOfTwo) {
 /// Attitude and momentum after some coasted steps.
 Rotation coasted(const Vector3d& m_B, const Vector3d& I, double h, int steps) {
   const Vector<double> moments = toBatch(I);
-  const Quaternion<double> q_WB = {0, 0, 0, 1};
-  Coasting<double> coasting = coastingOf(q_WB, toBatch(m_B), moments, inverseMoments(moments), h);
-  for (int i = 0; i < steps; ++i) {
-    const Phase<double> next = nextPhase(coasting.phase, coasting.of_step, coasting.kc2);
-    coasting.psi = nextPsi(coasting, coasting.phase, next);
-    coasting.phase = next;
-  }
-  return {fromBatch(attitudeOf(coasting)), fromBatch(bodyMomentumOf(coasting))};
+  const Quaternion<double> start = {0, 0, 0, 1};
+  Coasting<double> coasting = coastingOf(start, toBatch(m_B), moments, inverseMoments(moments), h);
+  Quaternion<double> q_WB = {0, 0, 0, 1};
+  for (int i = 0; i < steps; ++i) q_WB = nextAttitude(coasting);
+  return {fromBatch(q_WB), fromBatch(bodyMomentumOf(coasting))};
 }
 
 TEST(BatchRotor, RaisesNoFloatingPointExceptionAtAnySize) {

@@ -18,18 +18,21 @@ struct Phase {
 /// What is stepped is the phase on the orbit, not the momentum: the map of the momentum is unstable
 /// off its own orbit, that of the phase stays on it by construction. Nothing is read back from the
 /// attitude, so its rounding does not add up. Axes are the orbit's; E is the momentum's axis there,
-/// that of d with the momentum's sign. A body that turns about a fixed axis is one whose phase
-/// stands still.
+/// that of d with the momentum's sign. Turns about it are counted as in a right-handed orbit, whose
+/// d is the momentum's way, and the phase's dn is positive; signs are put back where attitude and
+/// momentum are made. A body that turns about a fixed axis is one whose phase stands still.
 template <class S>
 struct Coasting {
   // Constants.
-  Quaternion<S> q_WE;  ///< attitude without psi and with the momentum along d
-  HalfAngle<S> turn;   ///< a step's about E, but for the angle between the momenta
-  Jacobi<S> of_step;   ///< sn = 0: fixed axis
-  S kc2, num, den;
-  S root_dd;  ///< negative around axis 1
-  S B_2;      ///< largest size of m2, see momentumOf()
-  S B_d;      ///< md = B_d dn of the phase
+  Quaternion<S> q_WE;       ///< attitude without psi and with the momentum along d
+  HalfAngle<S> turn;        ///< a step's about E, but for the angle between the momenta
+  Jacobi<S> of_step;        ///< sn = 0: fixed axis
+  S kc2, num, den, length;  ///< see nextPsi()
+  S root_dd;                ///< negative around axis 1
+  S B_x;                    ///< largest size of m2; negative around axis 1
+  S B_y;                    ///< the same, with the sign of md
+  S B_d;                    ///< |md| = B_d dn of the phase
+  S sign_d;                 ///< of md
   S G;
   // What moves.
   Phase<S> phase;
@@ -44,9 +47,7 @@ struct OrbitMomentum {
 
 template <class S>
 RBS_INLINE OrbitMomentum<S> momentumOf(const Coasting<S>& x) {
-  const S sign_d = withSign(S(1.0), x.B_d);
-  return {x.B_2 * magnitude(x.root_dd) * x.phase.c, sign_d * (x.B_2 * x.phase.s),
-          x.B_d * x.phase.d};
+  return {x.B_x * x.root_dd * x.phase.c, x.B_y * x.phase.s, x.sign_d * x.B_d * x.phase.d};
 }
 template <class S>
 RBS_INLINE Vector<S> bodyMomentumOf(const Coasting<S>& x) {
@@ -64,14 +65,14 @@ RBS_INLINE void setFixedAxis(typename MaskOf<S>::Type is_fixed, const Orbit<S>& 
   x.kc2 = select(is_fixed, one, x.kc2);
   x.num = select(is_fixed, none, x.num);
   x.den = select(is_fixed, none, x.den);
+  x.length = select(is_fixed, one, x.length);
   x.root_dd = select(is_fixed, o.about, x.root_dd);
   const S across = root(o.mc * o.mc + o.m2 * o.m2);
   const auto is_along = across == 0;
   const S safe = select(is_along, one, across);
-  const S sign_d = withSign(one, o.md);
-  x.B_2 = select(is_fixed, across, x.B_2);
-  x.B_d = select(is_fixed, o.md, x.B_d);
-  x.phase.s = select(is_fixed, sign_d * o.m2 / safe, x.phase.s);
+  x.B_x = select(is_fixed, o.about * across, x.B_x);
+  x.B_d = select(is_fixed, magnitude(o.md), x.B_d);
+  x.phase.s = select(is_fixed, x.sign_d * o.m2 / safe, x.phase.s);
   x.phase.c = select(is_fixed, select(is_along, one, o.mc / safe), x.phase.c);
   const HalfAngle<S> turn = halfAngle(o.about * angle);
   x.turn = {select(is_fixed, turn.cos, x.turn.cos), select(is_fixed, turn.sin, x.turn.sin)};
@@ -85,25 +86,28 @@ RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_
   const Direction<S> momentum = directionOf(m_B);
   const Orbit<S> o = orbitOf(momentum.m, a);
   const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
-  const S sign_d = withSign(one, o.md);
   Coasting<S> x;
   x.turn = normalized(slowTurn(o, a, momentum.G, h, step));
   x.of_step = step.f;
   x.kc2 = o.kc2;
-  x.num = -(o.dc / (o.lambda * o.dd) * step.f.sn);
+  x.num = -(o.about * (o.dc / (o.lambda * o.dd)) * step.f.sn);
   x.den = o.dc / o.dd;
+  x.length = root(1 + x.den * (step.f.sn * step.f.sn)) / o.dd;
   const S root_dd = root(o.dd);
   x.root_dd = o.about * root_dd;
-  x.B_2 = root(o.R) / root_dd;
-  x.B_d = sign_d * root(o.W);
+  const S B_2 = root(o.R) / root_dd;
+  x.B_x = o.about * B_2;
+  x.B_d = root(o.W);
+  x.sign_d = withSign(one, o.md);
   x.G = momentum.G;
-  x.phase.s = sign_d * o.m2 / x.B_2;
-  x.phase.c = o.mc / (x.B_2 * root_dd);
+  x.phase.s = x.sign_d * o.m2 / B_2;
+  x.phase.c = o.mc / (B_2 * root_dd);
   if (any(o.is_fixed_axis)) {
     const Vector<S> w = quotient(momentum.m, I);
     setFixedAxis(o.is_fixed_axis, o, h * (momentum.G * dot(momentum.m, w)), x);
   }
-  x.turn.sin = sign_d * x.turn.sin;
+  x.B_y = x.sign_d * magnitude(x.B_x);
+  x.turn.sin = o.about * x.turn.sin;
   const S scale = 1 / root(x.phase.s * x.phase.s + x.phase.c * x.phase.c);
   x.phase.s = scale * x.phase.s;
   x.phase.c = scale * x.phase.c;
@@ -112,37 +116,51 @@ RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_
   // The inverse of the shortest rotation that takes the momentum to axis d.
   const OrbitMomentum<S> m = momentumOf(x);
   const S w = 1 + magnitude(m.d);
-  const Quaternion<S> back = {-(sign_d * m.two), sign_d * m.c, S(0.0), w};
+  const Quaternion<S> back = {-(x.sign_d * m.two), x.sign_d * m.c, S(0.0), w};
   const Quaternion<S> q_WE = q_WB * fromOrbit(o.is_around_1, o.about, back);
   x.q_WE = scaled(1 / root(squaredNorm(q_WE)), q_WE);
   return x;
 }
 
-/// The phase a step on.
+/// The phase a step on, by the addition theorems.
 template <class S>
 RBS_INLINE Phase<S> nextPhase(const Phase<S>& x, const Jacobi<S>& f, const S& kc2) {
-  // Addition theorem; the denominator 1 - k^2 s^2 sn^2 as a sum of positive terms.
-  const S k2cn2 = (1 - kc2) * (f.cn * f.cn);
-  const S i = 1 / (x.d * x.d + k2cn2 * (x.s * x.s));
-  const S s = (x.s * (f.cn * f.dn) + f.sn * (x.c * x.d)) * i;
-  const S c = (x.c * f.cn - f.sn * f.dn * (x.s * x.d)) * i;
-  return {s, c, root(c * c + kc2 * (s * s))};
+  const S k2 = 1 - kc2;
+  // 1 - k^2 s^2 sn^2 as a sum of positive terms.
+  const S i = 1 / (x.c * x.c + (kc2 + k2 * (f.cn * f.cn)) * (x.s * x.s));
+  return {(x.s * (f.cn * f.dn) + x.c * x.d * f.sn) * i,
+          (x.c * f.cn - x.s * x.d * (f.sn * f.dn)) * i,
+          (x.d * f.dn - x.s * x.c * (k2 * (f.sn * f.cn))) * i};
 }
 
-/// What the body has turned about E, when its phase goes from `x` to `next`.
+/// dn from the other two, so that they stay those of one argument.
+template <class S>
+RBS_INLINE S dnOf(const Phase<S>& x, const S& kc2) {
+  return root(x.c * x.c + kc2 * (x.s * x.s));
+}
+
+/// What the body has turned about E, when its phase goes from `x` to `next`; of a length that
+/// changes.
 template <class S>
 RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const Phase<S>& next) {
   const S sn = of.of_step.sn;
-  const S dd = of.root_dd * of.root_dd;
-  const S num = of.num * x.s * next.s;
-  const S den = 1 + of.den * (next.s * next.s - sn * x.s * next.c * next.d);
-  const S cross = magnitude(of.root_dd) * (x.c * next.s - x.s * next.c);
-  const S dot = dd * (x.c * next.c) + x.s * next.s;
-  HalfAngle<S> between = rootDirection(den * dot + num * cross, num * dot - den * cross);
+  const S a = of.root_dd * x.c, a_next = of.root_dd * next.c;
+  const S num = of.num * (x.s * next.s);
+  const S den = 1 + of.den * (next.s * next.s - sn * x.s * (next.c * next.d));
+  const S cross = a * next.s - x.s * a_next;
+  const S dot = a * a_next + x.s * next.s;
+  // Of (den + i num) (dot - i cross), without a root: dot^2 + cross^2 is the product of the sums
+  // here, and den^2 + num^2 the same times a constant.
+  const S length = of.length * ((a * a + x.s * x.s) * (a_next * a_next + next.s * next.s));
+  const HalfAngle<S> between =
+      rootDirection(den * dot + num * cross, num * dot - den * cross, length);
   const auto stays = sn == 0;  // the phase's roundings are no turn
-  between = {select(stays, S(1.0), between.cos),
-             select(stays, S(0.0), withSign(S(1.0), of.B_d) * between.sin)};
-  const HalfAngle<S> psi = of.psi * of.turn * between;
+  return of.psi * of.turn *
+         HalfAngle<S>{select(stays, S(1.0), between.cos), select(stays, S(0.0), between.sin)};
+}
+
+template <class S>
+RBS_INLINE HalfAngle<S> nearOne(const HalfAngle<S>& psi) {
   const S scale = inversePower(magnitude(psi.cos) + magnitude(psi.sin));
   return {scale * psi.cos, scale * psi.sin};
 }
@@ -150,14 +168,28 @@ RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const 
 /// exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
 template <class S>
 RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x) {
-  const S r = magnitude(x.root_dd);
-  const S w = 1 + magnitude(x.B_d) * x.phase.d;
-  const S mx = withSign(x.B_2 * r, x.B_d) * x.phase.c, my = x.B_2 * x.phase.s;
+  const S a = x.root_dd * x.phase.c, s = x.phase.s;
   const S C = x.psi.cos, D = x.psi.sin;
-  const Quaternion<S> turn = fromOrbit<S>(x.root_dd < 0, withSign(S(1.0), x.root_dd),
-                                          {C * my + D * mx, D * my - C * mx, w * D, w * C});
-  const Quaternion<S> q_WB = x.q_WE * turn;
-  return scaled(1 / root(squaredNorm(q_WB)), q_WB);
+  const S w = 1 + x.B_d * x.phase.d;
+  // Around axis 3; around axis 1 the outer axes change places.
+  const Quaternion<S> turn = {x.B_x * (C * s + D * a), x.B_y * (D * s - C * a), x.sign_d * (w * D),
+                              w * C};
+  const S scale = 1 / root(squaredNorm(turn));
+  const auto is_around_1 = x.root_dd < 0;
+  return x.q_WE * scaled(scale, {select(is_around_1, turn.z, turn.x), turn.y,
+                                 select(is_around_1, turn.x, turn.z), turn.w});
+}
+
+/// Moves a body on by a step. @returns its attitude then
+template <class S>
+RBS_INLINE Quaternion<S> nextAttitude(Coasting<S>& x) {
+  const Phase<S> next = nextPhase(x.phase, x.of_step, x.kc2);
+  x.psi = nextPsi(x, x.phase, next);
+  x.phase = next;
+  const Quaternion<S> q_WB = attitudeOf(x);
+  x.phase.d = dnOf(next, x.kc2);
+  x.psi = nearOne(x.psi);
+  return q_WB;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ constexpr std::ptrdiff_t tileSize(std::ptrdiff_t count, int numbers) {
 /// What rk4 keeps of a body from stage to stage.
 constexpr int kRk4Numbers = 38;
 
-/// What `exact` remembers of a body. Tiles of zeros remember nothing.
-constexpr int kSpinNumbers = 37;
+/// What `exact` remembers of a body, see spin_tile.hpp. Tiles of zeros remember nothing.
+constexpr int kSpinNumbers = 40;
 
 }  // namespace rigid_body_sim::batch

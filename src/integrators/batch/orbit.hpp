@@ -126,10 +126,14 @@ RBS_INLINE HalfAngle<S> normalized(const HalfAngle<S>& a) {
 /// It is that of the root, which takes no trigonometric function: sqrt(z) is along z + |z|, and
 /// where that cancels along i (|z| - re) + im.
 template <class S>
-RBS_INLINE HalfAngle<S> rootDirection(S re, S im) {
-  const S sum = root(re * re + im * im) + magnitude(re);
+RBS_INLINE HalfAngle<S> rootDirection(S re, S im, S length) {
+  const S sum = length + magnitude(re);
   const auto is_right = re >= 0;
   return {select(is_right, sum, magnitude(im)), select(is_right, im, withSign(sum, im))};
+}
+template <class S>
+RBS_INLINE HalfAngle<S> rootDirection(S re, S im) {
+  return rootDirection(re, im, root(re * re + im * im));
 }
 
 /// sn, cn, dn of one argument.

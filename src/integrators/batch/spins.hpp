@@ -1,98 +1,11 @@
 #pragma once
 
-#include "integrators/batch/coasting.hpp"
 #include "integrators/batch/drift.hpp"
-#include "integrators/batch/tiles.hpp"
+#include "integrators/batch/spin_tile.hpp"
 
 // Kicks and exact free flight, as in exact.cpp, with what it remembers of each body in tiles.
 namespace rigid_body_sim::batch {
 namespace {
-
-enum SpinNumber {
-  kSpinQ = 0,  // attitude and angular momentum that the method left behind
-  kSpinL = 4,
-  kSpinM = 7,            // m_B; not up to date while coasting
-  kSpinInverse = 10,     // InverseMoments
-  kSpinDrift = 14,       // [s] the latest drift; 0 if something turned the momentum since
-  kSpinIsCoasting = 15,  // 1 or 0
-  kSpinEnd = 16
-};
-enum CoastingNumber {
-  kCoastQ = kSpinEnd,
-  kCoastTurn = kCoastQ + 4,
-  kCoastStep = kCoastTurn + 2,
-  kCoastKc2 = kCoastStep + 3,
-  kCoastNum,
-  kCoastDen,
-  kCoastRoot,
-  kCoastB2,
-  kCoastBd,
-  kCoastG,
-  kCoastPhase,
-  kCoastPsi = kCoastPhase + 3,
-  kCoastEnd = kCoastPsi + 2
-};
-static_assert(kCoastEnd == kSpinNumbers);
-
-template <class Tile>
-RBS_INLINE Jacobi<typename Tile::S> loadOfStep(const Tile& tile) {
-  return {tile.load(kCoastStep), tile.load(kCoastStep + 1), tile.load(kCoastStep + 2)};
-}
-template <class Tile>
-RBS_INLINE Phase<typename Tile::S> loadPhase(const Tile& tile) {
-  return {tile.load(kCoastPhase), tile.load(kCoastPhase + 1), tile.load(kCoastPhase + 2)};
-}
-
-template <class Tile>
-RBS_INLINE auto loadCoasting(const Tile& tile) {
-  Coasting<typename Tile::S> x;
-  x.q_WE = tile.loadQuaternion(kCoastQ);
-  x.turn = {tile.load(kCoastTurn), tile.load(kCoastTurn + 1)};
-  x.of_step = loadOfStep(tile);
-  x.kc2 = tile.load(kCoastKc2);
-  x.num = tile.load(kCoastNum);
-  x.den = tile.load(kCoastDen);
-  x.root_dd = tile.load(kCoastRoot);
-  x.B_2 = tile.load(kCoastB2);
-  x.B_d = tile.load(kCoastBd);
-  x.G = tile.load(kCoastG);
-  x.phase = loadPhase(tile);
-  x.psi = {tile.load(kCoastPsi), tile.load(kCoastPsi + 1)};
-  return x;
-}
-
-/// Stores where `mask`.
-template <class Tile, class M, class S>
-RBS_INLINE void storeWhere(const Tile& tile, M mask, int number, const S& x) {
-  tile.store(number, select(mask, x, tile.load(number)));
-}
-
-template <class Tile, class M, class S>
-RBS_INLINE void storeMoved(const Tile& tile, M mask, const Coasting<S>& x) {
-  storeWhere(tile, mask, kCoastPhase, x.phase.s);
-  storeWhere(tile, mask, kCoastPhase + 1, x.phase.c);
-  storeWhere(tile, mask, kCoastPhase + 2, x.phase.d);
-  storeWhere(tile, mask, kCoastPsi, x.psi.cos);
-  storeWhere(tile, mask, kCoastPsi + 1, x.psi.sin);
-}
-
-template <class Tile, class M, class S>
-RBS_INLINE void storeCoasting(const Tile& tile, M mask, const Coasting<S>& x) {
-  const S constants[] = {x.q_WE.x,     x.q_WE.y,     x.q_WE.z,     x.q_WE.w, x.turn.cos, x.turn.sin,
-                         x.of_step.sn, x.of_step.cn, x.of_step.dn, x.kc2,    x.num,      x.den,
-                         x.root_dd,    x.B_2,        x.B_d,        x.G};
-  for (int i = 0; i < kCoastPhase - kCoastQ; ++i) storeWhere(tile, mask, kCoastQ + i, constants[i]);
-  storeMoved(tile, mask, x);
-}
-
-/// What a body has that does not coast: steps of it beside bodies that do are harmless.
-template <class S>
-RBS_INLINE Coasting<S> standingStill() {
-  const S one(1.0), none(0.0);
-  return {
-      {none, none, none, one}, {one, none}, {none, one, one}, one, none, none, one, none, one, none,
-      {none, one, one},        {one, none}};
-}
 
 /// m = R^T L anew, where `mask`.
 template <class S>
@@ -118,10 +31,10 @@ template <class Tile, class M>
 RBS_INLINE auto momentumAfterCoasting(const Tile& tile, M ends) {
   using S = typename Tile::S;
   Vector<S> m_B = tile.loadVector(kSpinM);
-  const auto coasted = ends & (tile.load(kSpinIsCoasting) == 1);
+  const auto coasted = ends & !(tile.load(kSpinCoasts) == 0);
   if (any(coasted)) {
     m_B = select(coasted, bodyMomentumOf(loadCoasting(tile)), m_B);
-    storeWhere(tile, coasted, kSpinIsCoasting, S(0.0));
+    storeWhere(tile, coasted, kSpinCoasts, S(0.0));
   }
   return m_B;
 }
@@ -150,7 +63,7 @@ RBS_INLINE void recallAll(const Tile& tile, M mask, const Quaternion<S>& q_WB, c
   storeWhere(tile, mask, kSpinInverse + 2, a.d12);
   storeWhere(tile, mask, kSpinInverse + 3, a.d23);
   storeWhere(tile, mask, kSpinDrift, none);
-  storeWhere(tile, mask, kSpinIsCoasting, none);
+  storeWhere(tile, mask, kSpinCoasts, none);
   storeCoasting(tile, mask, standingStill<S>());
 }
 
@@ -168,26 +81,33 @@ template <class Place, class M>
   recallAll(tile, !is_here, q_WB, L_W, inverseMoments(I));
 }
 
+/// Whether the attitude is what the method left behind.
+template <class Place, class Tile>
+RBS_INLINE auto isHere(const Place& at, const BodyColumns& bodies, const Tile& tile) {
+  const auto q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+  const auto old = tile.loadQuaternion(kSpinQ);
+  return ((old.x == q_WB.x) & (old.y == q_WB.y)) & ((old.z == q_WB.z) & (old.w == q_WB.w));
+}
+template <class Place, class Tile>
+RBS_INLINE auto hasItsMomentum(const Place& at, const BodyColumns& bodies, const Tile& tile) {
+  const auto L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
+  const auto old = tile.loadVector(kSpinL);
+  return (old.x == L_W.x) & (old.y == L_W.y) & (old.z == L_W.z);
+}
+
 /// Takes up lanes that somebody else has moved.
 template <class Place>
 RBS_INLINE void recallSpins(const Place& at, const BodyColumns& bodies, double* tiles) {
-  using S = typename Place::Number;
   const auto tile = inTile<kSpinNumbers>(at, tiles);
-  const Quaternion<S> q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
-  const Vector<S> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);
-  const Quaternion<S> old_q = tile.loadQuaternion(kSpinQ);
-  const Vector<S> old_L = tile.loadVector(kSpinL);
-  const auto is_here =
-      ((old_q.x == q_WB.x) & (old_q.y == q_WB.y)) & ((old_q.z == q_WB.z) & (old_q.w == q_WB.w));
-  const auto is_known = is_here & ((old_L.x == L_W.x) & (old_L.y == L_W.y) & (old_L.z == L_W.z));
+  const auto is_here = isHere(at, bodies, tile);
+  const auto is_known = is_here & hasItsMomentum(at, bodies, tile);
   if (!all(is_known)) recallMoved(at, bodies, tiles, is_here, is_known);
 }
 
-/// L += h t where there is a torque.
+/// L += h t where there is a torque, of bodies that nobody else has moved.
 template <class Place, class S, class M>
-[[gnu::noinline]] void kickMomenta(Place at, BodyColumns bodies, double* tiles, Vector<S> impulse,
-                                   M turns) {
-  recallSpins(at, bodies, tiles);
+RBS_INLINE void kickMomenta(const Place& at, const BodyColumns& bodies, double* tiles,
+                            const Vector<S>& impulse, M turns) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const Vector<S> m_B = momentumAfterCoasting(tile, turns);
   const Vector<S> L_W = tile.loadVector(kSpinL);
@@ -197,6 +117,13 @@ template <class Place, class S, class M>
   const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
   tile.storeVector(kSpinM, select(turns, m_B + rotatedBack(q_WB, impulse), m_B));
   storeWhere(tile, turns, kSpinDrift, S(0.0));
+}
+
+template <class Place, class S, class M>
+[[gnu::noinline]] void recallAndKick(Place at, BodyColumns bodies, double* tiles, Vector<S> impulse,
+                                     M turns) {
+  recallSpins(at, bodies, tiles);
+  kickMomenta(at, bodies, tiles, impulse, turns);
 }
 
 template <class S>
@@ -209,7 +136,7 @@ void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, do
     kicked(at, bodies.P_WB, bodies.stride, wrenches.f_W, wrenches.stride, h);
     const Vector<T> t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
     const auto turns = !isZero(t_W);
-    if (any(turns)) kickMomenta(at, bodies, tiles, h * t_W, turns);
+    if (any(turns)) recallAndKick(at, bodies, tiles, h * t_W, turns);
   });
 }
 
@@ -297,40 +224,56 @@ template <class Place, class M>
   const Rotor<S> rotor = rotorOf(at, bodies, tile, mask, tile.loadVector(kSpinM));
   storeCoasting(tile, mask,
                 coastingOf<S>(tile.loadQuaternion(kSpinQ), rotor.m_B, rotor.I, rotor.a, h));
-  storeWhere(tile, mask, kSpinIsCoasting, S(1.0));
+  storeWhere(tile, mask, kSpinCoasts, S(h));
 }
 
-/// A step of lanes that coast. @param q_WB of all lanes @returns what it becomes
-template <class Tile, class M, class S>
-RBS_INLINE Quaternion<S> coast(const Tile& tile, M coasts, const Quaternion<S>& q_WB) {
-  const Coasting<S> x = loadCoasting(tile);
-  Coasting<S> next = x;
-  next.phase = nextPhase(x.phase, x.of_step, x.kc2);
-  next.psi = nextPsi(x, x.phase, next.phase);
-  tile.store(kCoastPhase, select(coasts, next.phase.s, x.phase.s));
-  tile.store(kCoastPhase + 1, select(coasts, next.phase.c, x.phase.c));
-  tile.store(kCoastPhase + 2, select(coasts, next.phase.d, x.phase.d));
-  tile.store(kCoastPsi, select(coasts, next.psi.cos, x.psi.cos));
-  tile.store(kCoastPsi + 1, select(coasts, next.psi.sin, x.psi.sin));
-  return select(coasts, attitudeOf(next), q_WB);
+/// A step of bodies that coast. @returns the attitude after it
+template <class Tile, class M>
+RBS_INLINE auto coast(const Tile& tile, M coasts) {
+  auto x = loadCoasting(tile);
+  const auto q_WB = nextAttitude(x);
+  storeMoved(tile, coasts, x);
+  return q_WB;
+}
+
+template <class Place, class Tile, class S>
+RBS_INLINE void turnTo(const Quaternion<S>& q_WB, const Place& at, const BodyColumns& bodies,
+                       const Tile& tile) {
+  tile.storeQuaternion(kSpinQ, q_WB);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
 }
 
 /// The rotation in a drift of h [s]: bodies that drift as long as before coast, the others are
-/// turned.
+/// turned. Nobody else has moved them.
 template <class Place>
-RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
-  recallSpins(at, bodies, tiles);
+RBS_INLINE void moveKnownSpins(const Place& at, const BodyColumns& bodies, double* tiles,
+                               double h) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const auto spins = !isZero(tile.loadVector(kSpinL));
   const auto goes_on = spins & (tile.load(kSpinDrift) == h);
   const auto rotates = spins & !goes_on;
   if (any(rotates)) rotateSpins(at, bodies, tiles, rotates, h);
-  const auto begins = goes_on & !(tile.load(kSpinIsCoasting) == 1);
+  const auto begins = goes_on & !(tile.load(kSpinCoasts) == h);
   if (any(begins)) beginToCoast(at, bodies, tiles, begins, h);
   if (!any(goes_on)) return;
-  const auto q_WB = coast(tile, goes_on, loadQuaternion(at, bodies.q_WB, bodies.stride));
-  tile.storeQuaternion(kSpinQ, q_WB);
-  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
+  const auto q_WB = loadQuaternion(at, bodies.q_WB, bodies.stride);
+  turnTo(select(goes_on, coast(tile, goes_on), q_WB), at, bodies, tile);
+}
+
+template <class Place>
+[[gnu::noinline]] void recallAndMove(Place at, BodyColumns bodies, double* tiles, double h) {
+  recallSpins(at, bodies, tiles);
+  moveKnownSpins(at, bodies, tiles, h);
+}
+
+/// The same of any bodies, with a shorter way for those that all coast already.
+template <class Place>
+RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  if (all(tile.load(kSpinCoasts) == h) &&
+      all(isHere(at, bodies, tile) & hasItsMomentum(at, bodies, tile)))
+    return turnTo(coast(tile, All()), at, bodies, tile);
+  recallAndMove(at, bodies, tiles, h);
 }
 
 template <class S>
@@ -340,6 +283,16 @@ void driftSpins(const BodyColumns& of, double* tiles, double h, Range range) {
     driftPosition(at, bodies, loadVector(at, bodies.P_WB, bodies.stride), h);
     moveSpins(at, bodies, tiles, h);
   });
+}
+
+/// The rotation in a kick, a drift and a kick, where there is a torque.
+template <class Place, class S, class M>
+[[gnu::noinline]] void kickAndMove(Place at, BodyColumns bodies, double* tiles, Vector<S> t_W,
+                                   M turns, double before_s, double h, double after_s) {
+  recallSpins(at, bodies, tiles);
+  kickMomenta(at, bodies, tiles, before_s * t_W, turns);
+  moveKnownSpins(at, bodies, tiles, h);
+  if (after_s != 0) kickMomenta(at, bodies, tiles, after_s * t_W, turns);
 }
 
 /// A kick of `before_s`, a drift of h, and unless it is 0 a kick of `after_s` [s].
@@ -353,14 +306,12 @@ void flySpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, dou
     const Vector<T> f_W = loadVector(at, wrenches.f_W, wrenches.stride);
     const Vector<T> t_W = loadVector(at, wrenches.t_Bcm_W, wrenches.stride);
     const auto turns = !isZero(t_W);
-    const bool any_turns = any(turns);
     Vector<T> P_WB = loadVector(at, bodies.P_WB, bodies.stride) + before_s * f_W;
     driftPosition(at, bodies, P_WB, h);
     if (after_s != 0) P_WB = P_WB + after_s * f_W;
     storeVector(at, bodies.P_WB, bodies.stride, P_WB);
-    if (any_turns) kickMomenta(at, bodies, tiles, before_s * t_W, turns);
-    moveSpins(at, bodies, tiles, h);
-    if (any_turns && after_s != 0) kickMomenta(at, bodies, tiles, after_s * t_W, turns);
+    if (!any(turns)) return moveSpins(at, bodies, tiles, h);
+    kickAndMove(at, bodies, tiles, t_W, turns, before_s, h, after_s);
   });
 }
 
