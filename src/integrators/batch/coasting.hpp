@@ -29,15 +29,19 @@ struct Coasting {
   Jacobi<S> of_step;        ///< sn = 0: fixed axis
   S kc2, num, den, length;  ///< see nextPsi()
   S root_dd;                ///< negative around axis 1
-  S B_x;                    ///< largest size of m2; negative around axis 1
-  S B_y;                    ///< the same, with the sign of md
-  S B_d;                    ///< |md| = B_d dn of the phase
-  S sign_d;                 ///< of md
+  S B_2;                    ///< largest size of m2; negative around axis 1
+  S B_d;                    ///< md = B_d dn of the phase
   S G;
   // What moves.
-  Phase<S> phase;
+  S s, c;            ///< of the phase
   HalfAngle<S> psi;  ///< of a length near one, but not one: that would take a root
 };
+
+/// dn is worked out from the other two, so that they stay those of one argument.
+template <class S>
+RBS_INLINE Phase<S> phaseOf(const Coasting<S>& x) {
+  return {x.s, x.c, root(x.c * x.c + x.kc2 * (x.s * x.s))};
+}
 
 /// The momentum along c, 2 and d, for G = 1.
 template <class S>
@@ -47,7 +51,7 @@ struct OrbitMomentum {
 
 template <class S>
 RBS_INLINE OrbitMomentum<S> momentumOf(const Coasting<S>& x) {
-  return {x.B_x * x.root_dd * x.phase.c, x.B_y * x.phase.s, x.sign_d * x.B_d * x.phase.d};
+  return {x.B_2 * x.root_dd * x.c, withSign(x.B_2, x.B_d) * x.s, x.B_d * phaseOf(x).d};
 }
 template <class S>
 RBS_INLINE Vector<S> bodyMomentumOf(const Coasting<S>& x) {
@@ -70,10 +74,11 @@ RBS_INLINE void setFixedAxis(typename MaskOf<S>::Type is_fixed, const Orbit<S>& 
   const S across = root(o.mc * o.mc + o.m2 * o.m2);
   const auto is_along = across == 0;
   const S safe = select(is_along, one, across);
-  x.B_x = select(is_fixed, o.about * across, x.B_x);
-  x.B_d = select(is_fixed, magnitude(o.md), x.B_d);
-  x.phase.s = select(is_fixed, x.sign_d * o.m2 / safe, x.phase.s);
-  x.phase.c = select(is_fixed, select(is_along, one, o.mc / safe), x.phase.c);
+  const S sign_d = withSign(one, o.md);
+  x.B_2 = select(is_fixed, o.about * across, x.B_2);
+  x.B_d = select(is_fixed, o.md, x.B_d);
+  x.s = select(is_fixed, sign_d * o.m2 / safe, x.s);
+  x.c = select(is_fixed, select(is_along, one, o.mc / safe), x.c);
   const HalfAngle<S> turn = halfAngle(o.about * angle);
   x.turn = {select(is_fixed, turn.cos, x.turn.cos), select(is_fixed, turn.sin, x.turn.sin)};
 }
@@ -95,28 +100,25 @@ RBS_INLINE Coasting<S> coastingOf(const Quaternion<S>& q_WB, const Vector<S>& m_
   x.length = root(1 + x.den * (step.f.sn * step.f.sn)) / o.dd;
   const S root_dd = root(o.dd);
   x.root_dd = o.about * root_dd;
-  const S B_2 = root(o.R) / root_dd;
-  x.B_x = o.about * B_2;
-  x.B_d = root(o.W);
-  x.sign_d = withSign(one, o.md);
+  x.B_2 = o.about * (root(o.R) / root_dd);
+  x.B_d = withSign(root(o.W), o.md);
   x.G = momentum.G;
-  x.phase.s = x.sign_d * o.m2 / B_2;
-  x.phase.c = o.mc / (B_2 * root_dd);
+  const S sign_d = withSign(one, o.md);
+  x.s = sign_d * o.m2 / magnitude(x.B_2);
+  x.c = o.mc / (magnitude(x.B_2) * root_dd);
   if (any(o.is_fixed_axis)) {
     const Vector<S> w = quotient(momentum.m, I);
     setFixedAxis(o.is_fixed_axis, o, h * (momentum.G * dot(momentum.m, w)), x);
   }
-  x.B_y = x.sign_d * magnitude(x.B_x);
   x.turn.sin = o.about * x.turn.sin;
-  const S scale = 1 / root(x.phase.s * x.phase.s + x.phase.c * x.phase.c);
-  x.phase.s = scale * x.phase.s;
-  x.phase.c = scale * x.phase.c;
-  x.phase.d = root(x.phase.c * x.phase.c + x.kc2 * x.phase.s * x.phase.s);
+  const S scale = 1 / root(x.s * x.s + x.c * x.c);
+  x.s = scale * x.s;
+  x.c = scale * x.c;
   x.psi = {one, S(0.0)};
   // The inverse of the shortest rotation that takes the momentum to axis d.
   const OrbitMomentum<S> m = momentumOf(x);
   const S w = 1 + magnitude(m.d);
-  const Quaternion<S> back = {-(x.sign_d * m.two), x.sign_d * m.c, S(0.0), w};
+  const Quaternion<S> back = {-(sign_d * m.two), sign_d * m.c, S(0.0), w};
   const Quaternion<S> q_WE = q_WB * fromOrbit(o.is_around_1, o.about, back);
   x.q_WE = scaled(1 / root(squaredNorm(q_WE)), q_WE);
   return x;
@@ -131,12 +133,6 @@ RBS_INLINE Phase<S> nextPhase(const Phase<S>& x, const Jacobi<S>& f, const S& kc
   return {(x.s * (f.cn * f.dn) + x.c * x.d * f.sn) * i,
           (x.c * f.cn - x.s * x.d * (f.sn * f.dn)) * i,
           (x.d * f.dn - x.s * x.c * (k2 * (f.sn * f.cn))) * i};
-}
-
-/// dn from the other two, so that they stay those of one argument.
-template <class S>
-RBS_INLINE S dnOf(const Phase<S>& x, const S& kc2) {
-  return root(x.c * x.c + kc2 * (x.s * x.s));
 }
 
 /// What the body has turned about E, when its phase goes from `x` to `next`; of a length that
@@ -167,13 +163,13 @@ RBS_INLINE HalfAngle<S> nearOne(const HalfAngle<S>& psi) {
 
 /// exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
 template <class S>
-RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x) {
-  const S a = x.root_dd * x.phase.c, s = x.phase.s;
+RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x, const Phase<S>& phase) {
+  const S a = x.root_dd * phase.c, s = phase.s;
   const S C = x.psi.cos, D = x.psi.sin;
-  const S w = 1 + x.B_d * x.phase.d;
+  const S w = 1 + magnitude(x.B_d) * phase.d;
   // Around axis 3; around axis 1 the outer axes change places.
-  const Quaternion<S> turn = {x.B_x * (C * s + D * a), x.B_y * (D * s - C * a), x.sign_d * (w * D),
-                              w * C};
+  const Quaternion<S> turn = {x.B_2 * (C * s + D * a), withSign(x.B_2, x.B_d) * (D * s - C * a),
+                              withSign(w, x.B_d) * D, w * C};
   const S scale = 1 / root(squaredNorm(turn));
   const auto is_around_1 = x.root_dd < 0;
   return x.q_WE * scaled(scale, {select(is_around_1, turn.z, turn.x), turn.y,
@@ -183,11 +179,11 @@ RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x) {
 /// Moves a body on by a step. @returns its attitude then
 template <class S>
 RBS_INLINE Quaternion<S> nextAttitude(Coasting<S>& x) {
-  const Phase<S> next = nextPhase(x.phase, x.of_step, x.kc2);
-  x.psi = nextPsi(x, x.phase, next);
-  x.phase = next;
-  const Quaternion<S> q_WB = attitudeOf(x);
-  x.phase.d = dnOf(next, x.kc2);
+  const Phase<S> phase = phaseOf(x), next = nextPhase(phase, x.of_step, x.kc2);
+  x.s = next.s;
+  x.c = next.c;
+  x.psi = nextPsi(x, phase, next);
+  const Quaternion<S> q_WB = attitudeOf(x, next);
   x.psi = nearOne(x.psi);
   return q_WB;
 }

@@ -44,6 +44,6 @@ constexpr std::ptrdiff_t tileSize(std::ptrdiff_t count, int numbers) {
 constexpr int kRk4Numbers = 38;
 
 /// What `exact` remembers of a body, see spin_tile.hpp. Tiles of zeros remember nothing.
-constexpr int kSpinNumbers = 40;
+constexpr int kSpinNumbers = 37;
 
 }  // namespace rigid_body_sim::batch

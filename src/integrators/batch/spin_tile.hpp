@@ -13,18 +13,17 @@ enum SpinNumber {
   kSpinL = 4,
   kSpinCoasts = 7,  // [s] steps of a body that coasts; 0 of others
   kSpinMoving = 8,  // of Coasting, as are the constants
-  kSpinConstants = 13,
-  kSpinM = 32,        // m_B; not up to date while coasting
-  kSpinInverse = 35,  // InverseMoments
-  kSpinDrift = 39     // [s] the latest drift; 0 if something turned the momentum since
+  kSpinConstants = 12,
+  kSpinM = 29,        // m_B; not up to date while coasting
+  kSpinInverse = 32,  // InverseMoments
+  kSpinDrift = 36     // [s] the latest drift; 0 if something turned the momentum since
 };
 
 /// Calls `f` for what moves in a Coasting.
 template <class AnyCoasting, class F>
 RBS_INLINE void forMoving(AnyCoasting& x, F f) {
-  f(x.phase.s);
-  f(x.phase.c);
-  f(x.phase.d);
+  f(x.s);
+  f(x.c);
   f(x.psi.cos);
   f(x.psi.sin);
 }
@@ -44,10 +43,8 @@ RBS_INLINE void forConstants(AnyCoasting& x, F f) {
   f(x.den);
   f(x.length);
   f(x.root_dd);
-  f(x.B_x);
-  f(x.B_y);
+  f(x.B_2);
   f(x.B_d);
-  f(x.sign_d);
   f(x.G);
 }
 
@@ -107,7 +104,8 @@ RBS_INLINE Coasting<S> standingStill() {
   for (S* number : {&x.q_WE.w, &x.turn.cos, &x.of_step.cn, &x.of_step.dn, &x.kc2, &x.length,
                     &x.root_dd, &x.B_d})
     *number = one;
-  x.phase = {none, one, one};
+  x.s = none;
+  x.c = one;
   x.psi = {one, none};
   return x;
 }
