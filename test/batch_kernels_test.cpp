@@ -187,6 +187,45 @@ TEST(FlownSpins, HaveTheBitsOfKickDriftAndKick) {
     }
 }
 
+/// Bodies that all spin, so that all coast.
+Bodies spinningBodies(Eigen::Index count) {
+  Bodies bodies = someBodies(count);
+  Sampler sample(5);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    bodies.I_BBcm_B.row(i) = someMoments(sample, 0);
+    bodies.L_WBcm_W.row(i) = sample.vector();
+  }
+  return bodies;
+}
+
+TEST(CoastingSpins, TakeUpTheOneThatSomebodyElseHasMoved) {
+  constexpr Eigen::Index kCount = 32, kMoved = 11;
+  for (const Kernels& k : availableKernels())
+    for (const bool turns : {false, true}) {
+      const auto drift = [&](Bodies& bodies, std::vector<double>& tiles) {
+        tiles.resize(tileSize(kCount, kSpinNumbers));
+        for (int i = 0; i < 6; ++i)
+          k.driftSpins(columnsOf(bodies), tiles.data(), 0.02, {0, kCount});
+      };
+      Bodies moved = spinningBodies(kCount);
+      std::vector<double> tiles, none;
+      drift(moved, tiles);
+      Bodies unmoved = moved;
+      std::vector<double> tiles_of_unmoved = tiles;
+      if (turns)
+        moved.q_WB.row(kMoved) = moved.q_WB.row(kMoved + 1).eval();
+      else
+        moved.L_WBcm_W(kMoved, 2) += 0.5;
+      Bodies anew = moved;
+      drift(moved, tiles);
+      drift(unmoved, tiles_of_unmoved);
+      drift(anew, none);
+      EXPECT_LT((moved.q_WB.row(kMoved) - anew.q_WB.row(kMoved)).norm(), 20 * kEps) << k.name;
+      moved.q_WB.row(kMoved) = unmoved.q_WB.row(kMoved);
+      EXPECT_TRUE(sameBits(moved.q_WB, unmoved.q_WB)) << k.name << turns;
+    }
+}
+
 TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {
   Bodies start = someBodies(17);
   start.L_WBcm_W.setZero();

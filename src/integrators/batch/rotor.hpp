@@ -51,15 +51,23 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   const S den = o.R + o.dc * m2 * m2 - o.dc * s * o.m2 * mc * md;
   const S cross = sign_d * (o.mc * m2 - o.m2 * mc);
   const S dot = o.mc * mc + o.m2 * m2;
-  HalfAngle<S> seen = rootDirection(den * dot + num * cross, num * dot - den * cross);
+  const S re = den * dot + num * cross, im = num * dot - den * cross;
+  // |re + i im|, as in nextPsi(): of either factor the root of these sums, but for a constant.
+  const S length =
+      root(1 + o.dc * o.W * (s * s)) * ((o.mc * o.mc + o.m2 * o.m2) * (mc * mc + m2 * m2));
+  HalfAngle<S> seen = rootDirection(re, im, length);
+  S seen_square = 2 * length * (length + magnitude(re));
   seen.cos = select(turns, seen.cos, one);  // on the axis there is nothing to see
-  HalfAngle<S> spin = slowTurn(o, a, momentum.G, h, step) * seen;
+  seen_square = select(turns, seen_square, one);
+  const HalfAngle<S> slow = slowTurn(o, a, momentum.G, h, step);
+  HalfAngle<S> spin = slow * seen;
   spin.sin = sign_d * spin.sin;
 
   // P^-1 (spin about d) P', with P the shortest rotation of the momentum before to the axis d, P'
   // of that after; |P|^2 = 2 (1 + |md|).
   const S before = 1 + magnitude(o.md), after = 1 + magnitude(md);
-  const S scale = 1 / root(4 * before * after * (spin.cos * spin.cos + spin.sin * spin.sin));
+  const S slow_square = slow.cos * slow.cos + slow.sin * slow.sin;
+  const S scale = 1 / root(4 * before * after * slow_square * seen_square);
   const S C = scale * spin.cos, D = scale * spin.sin;
   const S x = sign_d * mc, y = sign_d * m2;
   const Quaternion<S> first = {-(sign_d * o.m2), sign_d * o.mc, S(0.0), before};

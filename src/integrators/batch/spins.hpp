@@ -194,26 +194,52 @@ RBS_INLINE Rotor<S> rotorOf(const Place& at, const BodyColumns& bodies, const Ti
   return filled<S>(mask, {m_B, loadVector(at, bodies.I_BBcm_B, bodies.stride), loadInverse(tile)});
 }
 
+template <class Place, class Tile, class S>
+RBS_INLINE void turnTo(const Quaternion<S>& q_WB, const Place& at, const BodyColumns& bodies,
+                       const Tile& tile) {
+  tile.storeQuaternion(kSpinQ, q_WB);
+  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
+}
+
+/// Attitude and angular momentum of a body that does not coast.
+template <class S>
+struct Spin {
+  Quaternion<S> q_WB;
+  Vector<S> L_W;
+  Vector<S> m_B;
+};
+
+template <class S>
+RBS_INLINE void kick(Spin<S>& x, const Vector<S>& impulse_W) {
+  x.L_W = x.L_W + impulse_W;
+  x.m_B = x.m_B + rotatedBack(x.q_WB, impulse_W);
+}
+
+/// Turns lanes; some, in any case.
+template <class Place, class Tile, class M, class S>
+RBS_INLINE void rotate(const Place& at, const BodyColumns& bodies, const Tile& tile, M mask,
+                       double h, Spin<S>& x) {
+  const auto is_lost = mask & isZero(x.m_B);  // a kick took all but roundings of L
+  if (any(is_lost)) x.m_B = momentumAnew<S>(is_lost, x.q_WB, x.L_W, x.m_B);
+  const Rotor<S> rotor = rotorOf(at, bodies, tile, mask, x.m_B);
+  FreeRotation<S> free = exactRotation(rotor.m_B, rotor.I, rotor.a, h);
+  Quaternion<S> next = renormalized(x.q_WB * free.q_BBnext);
+  alignSpin<S>(mask, x.L_W, next, free.m_B);
+  x.q_WB = select(mask, next, x.q_WB);
+  x.m_B = select(mask, free.m_B, x.m_B);
+}
+
 /// Turns lanes that do not coast.
 template <class Place, class M>
 [[gnu::noinline]] void rotateSpins(Place at, BodyColumns bodies, double* tiles, M mask, double h) {
   using S = typename Place::Number;
   const auto tile = inTile<kSpinNumbers>(at, tiles);
-  Vector<S> m_B = momentumAfterCoasting(tile, mask);
-  const auto is_lost = mask & isZero(m_B);  // a kick took all but roundings of L
-  if (any(is_lost))
-    m_B = momentumAnew<S>(is_lost, tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinL), m_B);
-  const Rotor<S> rotor = rotorOf(at, bodies, tile, mask, m_B);
-  const FreeRotation<S> free = exactRotation(rotor.m_B, rotor.I, rotor.a, h);
-  const Quaternion<S> q_WB = tile.loadQuaternion(kSpinQ);
-  Quaternion<S> next = renormalized(q_WB * free.q_BBnext);
-  Vector<S> m_next = free.m_B;
-  alignSpin<S>(mask, tile.loadVector(kSpinL), next, m_next);
-  tile.storeVector(kSpinM, select(mask, m_next, m_B));
+  Spin<S> x = {tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinL),
+               momentumAfterCoasting(tile, mask)};
+  rotate(at, bodies, tile, mask, h, x);
+  tile.storeVector(kSpinM, x.m_B);
   storeWhere(tile, mask, kSpinDrift, S(h));
-  next = select(mask, next, q_WB);
-  tile.storeQuaternion(kSpinQ, next);
-  storeQuaternion(at, bodies.q_WB, bodies.stride, next);
+  turnTo(x.q_WB, at, bodies, tile);
 }
 
 /// The second equal drift in a row without torque.
@@ -234,13 +260,6 @@ RBS_INLINE auto coast(const Tile& tile, M coasts) {
   const auto q_WB = nextAttitude(x);
   storeMoved(tile, coasts, x);
   return q_WB;
-}
-
-template <class Place, class Tile, class S>
-RBS_INLINE void turnTo(const Quaternion<S>& q_WB, const Place& at, const BodyColumns& bodies,
-                       const Tile& tile) {
-  tile.storeQuaternion(kSpinQ, q_WB);
-  storeQuaternion(at, bodies.q_WB, bodies.stride, q_WB);
 }
 
 /// The rotation in a drift of h [s]: bodies that drift as long as before coast, the others are
@@ -290,9 +309,25 @@ template <class Place, class S, class M>
 [[gnu::noinline]] void kickAndMove(Place at, BodyColumns bodies, double* tiles, Vector<S> t_W,
                                    M turns, double before_s, double h, double after_s) {
   recallSpins(at, bodies, tiles);
-  kickMomenta(at, bodies, tiles, before_s * t_W, turns);
-  moveKnownSpins(at, bodies, tiles, h);
-  if (after_s != 0) kickMomenta(at, bodies, tiles, after_s * t_W, turns);
+  if (!all(turns)) {
+    kickMomenta(at, bodies, tiles, before_s * t_W, turns);
+    moveKnownSpins(at, bodies, tiles, h);
+    if (after_s != 0) kickMomenta(at, bodies, tiles, after_s * t_W, turns);
+    return;
+  }
+  // The same in one go.
+  const auto tile = inTile<kSpinNumbers>(at, tiles);
+  Spin<S> x = {tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinL),
+               momentumAfterCoasting(tile, turns)};
+  kick(x, before_s * t_W);
+  const auto spins = !isZero(x.L_W);
+  if (any(spins)) rotate(at, bodies, tile, spins, h, x);
+  if (after_s != 0) kick(x, after_s * t_W);
+  tile.storeVector(kSpinM, x.m_B);
+  tile.store(kSpinDrift, after_s != 0 ? S(0.0) : select(spins, S(h), S(0.0)));
+  tile.storeVector(kSpinL, x.L_W);
+  storeVector(at, bodies.L_WBcm_W, bodies.stride, x.L_W);
+  turnTo(x.q_WB, at, bodies, tile);
 }
 
 /// A kick of `before_s`, a drift of h, and unless it is 0 a kick of `after_s` [s].
