@@ -52,13 +52,13 @@ const std::vector<IntegratorRow>& integrators() {
        "Dormand and Prince's eighth order on momentum in body axes and quaternion; any smooth "
        "wrench",
        makeRk8},
-      {"exact", 2, 1, true, true, true, true, true, kInf, kSwing, kLargeSwing, 4, 2, 2.0, 4.7, true,
+      {"exact", 2, 1, true, true, true, true, true, kInf, kSwing, kLargeSwing, 4, 2, 1.1, 3.4, true,
        "kick - exact free rotation (Jacobi's elliptic functions) - kick; right to rounding at any "
        "step without torque",
        makeExact},
-      {"exact4", 4, 0, true, true, true, true, true, kInf, 3.1, 1, 0, 7, 2.0, 25, false,
+      {"exact4", 4, 0, true, true, true, true, true, kInf, 3.1, 1, 0, 7, 1.1, 19, false,
        "six exact free rotations between seven kicks (Blanes and Moan); any spin", makeExact4},
-      {"exact6", 6, 0, true, true, true, true, true, kInf, 3.1, 2, 0, 12, 2.0, 45, false,
+      {"exact6", 6, 0, true, true, true, true, true, kInf, 3.1, 2, 0, 12, 1.1, 34, false,
        "eleven exact free rotations between twelve kicks (Blanes and Moan); any spin", makeExact6},
       {"adaptive", 0, 0, false, false, true, false, false, 200, 200, 200, 6000, 0, 51, 51, false,
        "rk8 in as many steps as `tolerance` wants, a thousand a tick at most; the reference",
