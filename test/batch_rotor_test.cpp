@@ -153,6 +153,24 @@ TEST(BatchRotor, RaisesNoFloatingPointExceptionAtAnySize) {
     }
 }
 
+/// A needle that turns about its third axis, where the numbers of an orbit go furthest apart: as
+/// one turn after the other says that does not coast.
+TEST(BatchCoasting, OfANeedleIsTheExactRotation) {
+  for (const double thickness : {1e-6, 1e-20, 1e-40, 1e-50, 1e-58}) {
+    const Vector3d I(thickness, 1, 1.5);
+    const double h = 0.3 * std::sqrt(thickness);
+    const Vector3d m(0.2 * std::sqrt(thickness), 0.3, 0.8);
+    Rotation one_by_one = {Quaterniond::Identity(), m};
+    for (int i = 0; i < 20; ++i) {
+      const Rotation next = turned(one_by_one.m_B, I, h);
+      one_by_one = {one_by_one.q_BBnext * next.q_BBnext, next.m_B};
+    }
+    const Rotation end = coasted(m, I, h, 20);
+    EXPECT_NEAR(end.q_BBnext.norm(), 1, 4 * kEps) << thickness;
+    EXPECT_LT(difference(end, one_by_one), 1e-13) << thickness;
+  }
+}
+
 TEST(BatchCoasting, IsTheExactRotationStepByStep) {
   Sampler sample(13);
   double worst = 0;

@@ -135,8 +135,8 @@ RBS_INLINE Phase<S> nextPhase(const Phase<S>& x, const Jacobi<S>& f, const S& kc
           (x.d * f.dn - x.s * x.c * (k2 * (f.sn * f.cn))) * i};
 }
 
-/// What the body has turned about E, when its phase goes from `x` to `next`; of a length that
-/// changes.
+/// What the body has turned about E, when its phase goes from `x` to `next`. Its length is another
+/// one then, by up to 1e91: dd is above R / 2, and R above 1e-60.
 template <class S>
 RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const Phase<S>& next) {
   const S sn = of.of_step.sn;
@@ -184,7 +184,7 @@ RBS_INLINE Quaternion<S> nextAttitude(Coasting<S>& x) {
   x.c = next.c;
   x.psi = nextPsi(x, phase, next);
   const Quaternion<S> q_WB = attitudeOf(x, next);
-  x.psi = nearOne(x.psi);
+  x.psi = nearOne(x.psi);  // which the attitude need not wait for
   return q_WB;
 }
 
