@@ -95,7 +95,8 @@ RBS_INLINE Orbit<S> orbitOf(const Vector<S>& m, const InverseMoments<S>& a) {
   o.k2 = select(k2 < kc2, k2, 1 - kc2);
   o.kc2 = select(k2 < kc2, 1 - k2, kc2);
   const S inverse_W = 1 / o.W;
-  o.one_minus_n = magnitude(side) * inverse_W;
+  // Of a sphere it would be 0, as would be the length of a complex number in doubled().
+  o.one_minus_n = select(o.is_fixed_axis, one, magnitude(side) * inverse_W);
   o.n = o.dc * inverse_W;
   return o;
 }

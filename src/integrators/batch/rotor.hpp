@@ -75,7 +75,9 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, first * then);
   const Vector<S> next = momentum.G * momentumFromOrbit(o.is_around_1, mc, m2, md);
   if (all(turns)) return {turn, next};
-  const Quaternion<S> about_axis = rotationExp(h * quotient(m_B, I));
+  const S none(0.0);
+  const Vector<S> m_fixed = select(turns, Vector<S>{none, none, none}, m_B);
+  const Quaternion<S> about_axis = rotationExp(h * quotient(m_fixed, I));
   return {select(turns, turn, about_axis), select(turns, next, m_B)};
 }
 
