@@ -8,9 +8,19 @@
 // Files of comma-separated values, as the reports write them.
 namespace rigid_body_sim {
 
-/// Makes the folder if it is not there. @throws std::invalid_argument naming what cannot be written
+/// Makes the folder if it is not there, and tries whether files can be written there.
+/// @throws std::invalid_argument if not
+inline void prepareFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::string probe = folder + "/.probe";
+  if (!std::ofstream(probe))
+    throw std::invalid_argument(folder + ": the folder for the output cannot be written to");
+  std::filesystem::remove(probe, error);
+}
+
+/// In a folder that is there. @throws std::invalid_argument naming what cannot be written
 inline std::ofstream openCsv(const std::string& folder, const std::string& name) {
-  std::filesystem::create_directories(folder);
   std::ofstream file(folder + "/" + name);
   if (!file) throw std::invalid_argument(folder + "/" + name + " cannot be written");
   return file;

@@ -13,6 +13,7 @@
 
 #include "reference/cases.hpp"
 #include "tools/accuracy_report/output.hpp"
+#include "tools/csv.hpp"
 
 namespace rigid_body_sim::report {
 namespace {

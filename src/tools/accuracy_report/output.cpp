@@ -242,15 +242,6 @@ void print(const Report& report, std::ostream& out) {
   for (const std::string& sentence : digest(report)) out << wrapped(sentence);
 }
 
-void prepareFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const std::string probe = folder + "/.probe";
-  if (!std::ofstream(probe))
-    throw std::invalid_argument(folder + ": the folder for the output cannot be written to");
-  std::filesystem::remove(probe, error);
-}
-
 void writeCsv(const Report& report, const std::string& folder) {
   prepareFolder(folder);
   writeCase(report, folder);

@@ -10,10 +10,6 @@ namespace rigid_body_sim::report {
 /// The report for a reader: what was flown, every row, and the digest.
 void print(const Report& report, std::ostream& out);
 
-/// Makes the folder if it is not there, and tries whether files can be written there.
-/// @throws std::invalid_argument if not
-void prepareFolder(const std::string& folder);
-
 /// Writes what scripts/plot_accuracy reads; makes the folder if it is not there.
 ///   case.csv     key, value: the scene, the reference, the body that is drawn
 ///   methods.csv  a line a row

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <string>
 
+#include "tools/csv.hpp"
 #include "tools/hard_cases/matrix.hpp"
 #include "tools/hard_cases/peers.hpp"
 
@@ -75,6 +76,9 @@ int plot(const std::string& folder) {
 int run(const Arguments& arguments) {
   if (arguments.lists_cases) return listCases(), 0;
   if (!arguments.peers.folder.empty()) engineNames(arguments.peers);  // refused before the flights
+  const bool has_output = !arguments.output.empty();
+  const std::string folder = has_output ? std::filesystem::absolute(arguments.output).string() : "";
+  if (has_output) prepareFolder(folder);
   const std::vector<Cell> cells = fly(arguments.plan, showProgress);
   showProgress("", 1);
   print(cells, std::cout);
@@ -86,8 +90,7 @@ int run(const Arguments& arguments) {
   }
   const bool is_kept =
       std::all_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.keepsClaim(); });
-  if (!arguments.output.empty()) {
-    const std::string folder = std::filesystem::absolute(arguments.output).string();
+  if (has_output) {
     writeCsv(cells, folder);
     std::filesystem::remove(folder + "/peers.csv");  // of an earlier flight
     if (!peers.empty()) writeCsv(peers, folder);

@@ -127,6 +127,7 @@ void print(const std::vector<Cell>& cells, std::ostream& out) {
 }
 
 void writeCsv(const std::vector<Cell>& cells, const std::string& folder) {
+  prepareFolder(folder);
   writeCases(cells, folder);
   std::ofstream file = openCsv(folder, "cells.csv");
   file << "case,rung,outcome,claim,keeps_claim,measure,unit,error,bound,end_s,wall_s,why\n";
