@@ -204,7 +204,7 @@ term; the speed with {MIDDLE} bodies, that of the fastest other way being 1; and
 after 10 s of a tumbling body, I = (1, 2, 3) kg m², ω = (0.1, 5, 0.1) rad/s, at a step of 0.02 s. In
 bold what is ours: integrators on bare `Bodies`, a step of all after the other, and in a `Simulator`,
 which also latches inputs and freezes what becomes infinite, and takes the bodies in blocks through
-several ticks, five of 1,000 bodies and more, while they are in the processor's cache.
+several ticks, five of 4,000 bodies and more, while they are in the processor's cache.
 
 {main_table(results)}
 """
