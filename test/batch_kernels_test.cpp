@@ -251,6 +251,26 @@ TEST(CoastingSpins, TakeUpTheOneThatSomebodyElseHasMoved) {
     }
 }
 
+TEST(CoastingSpins, StandStillInNoTime) {
+  for (const Kernels& k : availableKernels())
+    for (const int steps : {0, 1, 2, 5}) {
+      Bodies bodies = spinningBodies(20);
+      std::vector<double> tiles(tileSize(20, kSpinNumbers));
+      for (int i = 0; i < steps; ++i) k.driftSpins(columnsOf(bodies), tiles.data(), 0.02, {0, 20});
+      Bodies flown = bodies;
+      std::vector<double> tiles_of_flown = tiles;
+      Pushes nothing(20);
+      nothing.f_W.setZero();
+      nothing.t_Bcm_W.setZero();
+      k.driftSpins(columnsOf(bodies), tiles.data(), 0, {0, 20});
+      k.flySpins(columnsOf(bodies), columnsOf(nothing), tiles.data(), 0, 0, 0, {0, 20});
+      EXPECT_TRUE(sameBits(bodies.q_WB, flown.q_WB)) << k.name << " " << steps;
+      k.driftSpins(columnsOf(bodies), tiles.data(), 0.02, {0, 20});
+      k.driftSpins(columnsOf(flown), tiles_of_flown.data(), 0.02, {0, 20});
+      EXPECT_TRUE(sameBits(bodies.q_WB, flown.q_WB)) << k.name << " " << steps;
+    }
+}
+
 TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {
   Bodies start = someBodies(17);
   start.L_WBcm_W.setZero();

@@ -153,6 +153,16 @@ TEST(BatchRotor, RaisesNoFloatingPointExceptionAtAnySize) {
     }
 }
 
+TEST(BatchCoasting, KeepsThePhaseOnTheOrbitInSmallSteps) {
+  const Vector3d I(1, 2, 2.9), w(0.5e-6, 0.6e-6, 0.3e-6);
+  const Vector<double> moments = toBatch(I), m_B = toBatch(I.cwiseProduct(w));
+  Coasting<double> coasting =
+      coastingOf<double>({0, 0, 0, 1}, m_B, moments, inverseMoments(moments), 0.02);
+  for (int i = 0; i < 200000; ++i) nextAttitude(coasting);
+  // Without its correction: 1e-12.
+  EXPECT_NEAR(coasting.s * coasting.s + coasting.c * coasting.c, 1, 4 * kEps);
+}
+
 /// A needle that turns about its third axis, where the numbers of an orbit go furthest apart: as
 /// one turn after the other says that does not coast.
 TEST(BatchCoasting, OfANeedleIsTheExactRotation) {

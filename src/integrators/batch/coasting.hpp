@@ -16,7 +16,7 @@ struct Phase {
 /// product of complex numbers, without any trigonometric or elliptic function.
 ///
 /// What is stepped is the phase on the orbit, not the momentum: the map of the momentum is unstable
-/// off its own orbit, that of the phase stays on it by construction. Nothing is read back from the
+/// off its own orbit, that of the phase is brought back to it. Nothing is read back from the
 /// attitude, so its rounding does not add up. Axes are the orbit's; E is the momentum's axis there,
 /// that of d with the momentum's sign. Turns about it are counted as in a right-handed orbit, whose
 /// d is the momentum's way, and the phase's dn is positive; signs are put back where attitude and
@@ -180,11 +180,14 @@ RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x, const Phase<S>& phase)
 template <class S>
 RBS_INLINE Quaternion<S> nextAttitude(Coasting<S>& x) {
   const Phase<S> phase = phaseOf(x), next = nextPhase(phase, x.of_step, x.kc2);
-  x.s = next.s;
-  x.c = next.c;
   x.psi = nextPsi(x, phase, next);
   const Quaternion<S> q_WB = attitudeOf(x, next);
-  x.psi = nearOne(x.psi);  // which the attitude need not wait for
+  // For the next step; the attitude need not wait for it. A step turns an error of the phase's
+  // length, s^2 + c^2, into the opposite one, and equal steps would add up their roundings.
+  const S unit = 1.5 - 0.5 * (next.s * next.s + next.c * next.c);
+  x.s = unit * next.s;
+  x.c = unit * next.c;
+  x.psi = nearOne(x.psi);
   return q_WB;
 }
 

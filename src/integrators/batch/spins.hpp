@@ -110,7 +110,7 @@ RBS_INLINE void kickMomenta(const Place& at, const BodyColumns& bodies, double* 
                             const Vector<S>& impulse, M turns) {
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const Vector<S> m_B = momentumAfterCoasting(tile, turns);
-  const Vector<S> L_W = tile.loadVector(kSpinL);
+  const Vector<S> L_W = loadVector(at, bodies.L_WBcm_W, bodies.stride);  // with its zeros' signs
   const Vector<S> L_next = select(turns, L_W + impulse, L_W);
   tile.storeVector(kSpinL, L_next);
   storeVector(at, bodies.L_WBcm_W, bodies.stride, L_next);
@@ -267,6 +267,7 @@ RBS_INLINE auto coast(const Tile& tile, M coasts) {
 template <class Place>
 RBS_INLINE void moveKnownSpins(const Place& at, const BodyColumns& bodies, double* tiles,
                                double h) {
+  if (h == 0) return;
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   const auto spins = !isZero(tile.loadVector(kSpinL));
   const auto goes_on = spins & (tile.load(kSpinDrift) == h);
@@ -288,6 +289,7 @@ template <class Place>
 /// The same of any bodies, with a shorter way for those that all coast already.
 template <class Place>
 RBS_INLINE void moveSpins(const Place& at, const BodyColumns& bodies, double* tiles, double h) {
+  if (h == 0) return;  // which would be the step of those that do not coast
   const auto tile = inTile<kSpinNumbers>(at, tiles);
   if (all(tile.load(kSpinCoasts) == h) &&
       all(isHere(at, bodies, tile) & hasItsMomentum(at, bodies, tile)))
@@ -317,11 +319,11 @@ template <class Place, class S, class M>
   }
   // The same in one go.
   const auto tile = inTile<kSpinNumbers>(at, tiles);
-  Spin<S> x = {tile.loadQuaternion(kSpinQ), tile.loadVector(kSpinL),
+  Spin<S> x = {tile.loadQuaternion(kSpinQ), loadVector(at, bodies.L_WBcm_W, bodies.stride),
                momentumAfterCoasting(tile, turns)};
   kick(x, before_s * t_W);
   const auto spins = !isZero(x.L_W);
-  if (any(spins)) rotate(at, bodies, tile, spins, h, x);
+  if (h != 0 && any(spins)) rotate(at, bodies, tile, spins, h, x);
   if (after_s != 0) kick(x, after_s * t_W);
   tile.storeVector(kSpinM, x.m_B);
   tile.store(kSpinDrift, after_s != 0 ? S(0.0) : select(spins, S(h), S(0.0)));
