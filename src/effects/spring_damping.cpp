@@ -11,7 +11,12 @@ namespace {
 /// after the drift the other way round.
 class SpringDamping : public SpringEffect {
  public:
-  using SpringEffect::SpringEffect;
+  explicit SpringDamping(Springs springs) : SpringEffect(std::move(springs)) {
+    std::size_t ends = 0;
+    for (const Spring& spring : this->springs())
+      for (const End& end : spring.ends) ends += end.isInWorld() ? 0 : 1;
+    share_bodies_ = ends > bodyCount();
+  }
 
   std::string name() const override { return "spring_damping"; }
   std::string blockName() const override { return "spring"; }
@@ -107,7 +112,7 @@ class SpringDamping : public SpringEffect {
   }
 
   bool mustAgree(const Bodies& bodies, const Instant& now, double h) const {
-    if (springs().size() == 1) return false;
+    if (!share_bodies_) return false;
     return std::any_of(springs().begin(), springs().end(), [&](const Spring& spring) {
       const Line line = lineOf(spring, now);
       return spring.actsAt(line.length) &&
@@ -179,6 +184,8 @@ class SpringDamping : public SpringEffect {
     const Triple L_B = R_WB.transposedTimes(L_W);
     return R_WB.times({L_B.x / I.x[i], L_B.y / I.y[i], L_B.z / I.z[i]});
   }
+
+  bool share_bodies_ = false;
 };
 
 }  // namespace

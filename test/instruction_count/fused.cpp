@@ -90,13 +90,21 @@ struct Fused {
     P = mass * kWind + through / (1 + c_h * (through.norm() / mass) / mass);
   }
   static void dashpot(const Vector3d& p, Vector3d& P, Vector3d& L, const Matrix3d& R,
-                      const Vector3d& I, double mass) {
+                      const Vector3d& I, double mass, double drift_s) {
     const Vector3d r = R * kHook, d = kAnchor - p - r;
-    const Vector3d n = d / d.norm(), arm = r.cross(n);
-    const Vector3d w = R * (R.transpose() * arm).cwiseQuotient(I);
-    const double inverse = 1 / mass + w.dot(arm);
-    const double rate = -(n.dot(P) / mass + w.dot(L));
-    const double impulse = -std::expm1(-kDashpot * 0.5 * kStep * inverse) / inverse * rate;
+    const double l2 = d.squaredNorm(), l = std::sqrt(l2);
+    const Vector3d n = d / l, arm = r.cross(n);
+    const double inverse = 1 / mass + (R * (R.transpose() * arm).cwiseQuotient(I)).dot(arm);
+    const Vector3d w = R * (R.transpose() * L).cwiseQuotient(I), turning = w.cross(r);
+    const Vector3d v = -(P / mass + turning);
+    const double rate = n.dot(v), across2 = std::max(0.0, v.squaredNorm() - rate * rate);
+    const double s2 = drift_s * drift_s;
+    double wanted = 0;
+    if (std::max(w.squaredNorm(), across2 / l2) * s2 < 0.25)
+      wanted =
+          -drift_s * (across2 / (l + std::sqrt(l2 - across2 * s2)) - 0.5 * n.dot(w.cross(turning)));
+    const double impulse =
+        -std::expm1(-kDashpot * 0.5 * kStep * inverse) / inverse * (rate - wanted);
     P += impulse * n;
     L += impulse * arm;
   }
@@ -141,7 +149,7 @@ struct Fused {
       kick(p, P, L, R, mass);
       damp(P, L, linear, angular);
       drag(P, mass);
-      dashpot(p, P, L, R, I, mass);
+      dashpot(p, P, L, R, I, mass, kStep);
       P += mass * kTurn.cross(p);
       L += R * I.cwiseProduct(R.transpose() * kTurn);
       drift(p, P, q, L, I, mass);
@@ -152,7 +160,7 @@ struct Fused {
       R = q.toRotationMatrix();
       P -= mass * kTurn.cross(p);
       L -= R * I.cwiseProduct(R.transpose() * kTurn);
-      dashpot(p, P, L, R, I, mass);
+      dashpot(p, P, L, R, I, mass, -kStep);
       drag(P, mass);
       damp(P, L, linear, angular);
       set(bodies.p_WBcm, i, p);
