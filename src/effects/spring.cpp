@@ -140,7 +140,7 @@ EffectList makeSpring(EffectBlock& block) {
   if (!block.entries.empty()) block.why_nothing = "of no spring is stiffness or damping above zero";
   EffectList effects;
   if (!elastic.empty()) effects.push_back(std::make_shared<ElasticSprings>(std::move(elastic)));
-  if (!damped.empty()) effects.push_back(springDamping(std::move(damped)));
+  if (!damped.empty()) effects.push_back(springDamping(damped));
   return effects;
 }
 

@@ -141,6 +141,6 @@ class SpringEffect : public Effect {
 };
 
 /// The dashpots of springs.
-std::shared_ptr<const Effect> springDamping(Springs springs);
+std::shared_ptr<const Effect> springDamping(const Springs& springs);
 
 }  // namespace rigid_body_sim

@@ -155,6 +155,7 @@ RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const 
          HalfAngle<S>{select(stays, S(1.0), between.cos), select(stays, S(0.0), between.sin)};
 }
 
+/// Of a length from 0.7 to 2, without a rounding.
 template <class S>
 RBS_INLINE HalfAngle<S> nearOne(const HalfAngle<S>& psi) {
   const S scale = inversePower(magnitude(psi.cos) + magnitude(psi.sin));
