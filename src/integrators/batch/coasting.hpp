@@ -155,13 +155,6 @@ RBS_INLINE HalfAngle<S> nextPsi(const Coasting<S>& of, const Phase<S>& x, const 
          HalfAngle<S>{select(stays, S(1.0), between.cos), select(stays, S(0.0), between.sin)};
 }
 
-/// Of a length from 0.7 to 2, without a rounding.
-template <class S>
-RBS_INLINE HalfAngle<S> nearOne(const HalfAngle<S>& psi) {
-  const S scale = inversePower(magnitude(psi.cos) + magnitude(psi.sin));
-  return {scale * psi.cos, scale * psi.sin};
-}
-
 /// exp(psi about E) P with P along (1 + |md|, m x E), the shortest rotation of m to E.
 template <class S>
 RBS_INLINE Quaternion<S> attitudeOf(const Coasting<S>& x, const Phase<S>& phase) {

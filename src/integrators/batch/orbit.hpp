@@ -60,9 +60,10 @@ struct Orbit {
   Question is_fixed_axis;  ///< the others' numbers are then those of no orbit, but finite
   S about;                 ///< -1 around axis 1, 1 around axis 3
   S md, mc, m2;            ///< the momentum
-  S dc, dd;       ///< differences of inverse moments: the middle one's to that of c and of d
-  S W, R;         ///< conserved; R = 0 on a principal axis
-  S lambda;       ///< rate of the elliptic argument
+  S dc, dd;  ///< differences of inverse moments: the middle one's to that of c and of d
+  S W, R;    ///< conserved; R = 0 on a principal axis
+  S lambda;  ///< rate of the elliptic argument
+  S inverse_lambda;
   S k2, kc2;      ///< modulus
   S one_minus_n;  ///< |S| / W
   S n;            ///< dc / W
@@ -91,10 +92,11 @@ RBS_INLINE Orbit<S> orbitOf(const Vector<S>& m, const InverseMoments<S>& a) {
   const S square = o.dd * o.W;
   o.lambda = root(square);
   const S scale = 1 / square;
+  o.inverse_lambda = o.lambda * scale;
   const S k2 = o.dc * o.R * scale, kc2 = magnitude(side) * scale;
   o.k2 = select(k2 < kc2, k2, 1 - kc2);
   o.kc2 = select(k2 < kc2, 1 - k2, kc2);
-  const S inverse_W = 1 / o.W;
+  const S inverse_W = o.dd * scale;
   // Of a sphere it would be 0, as would be the length of a complex number in doubled().
   o.one_minus_n = select(o.is_fixed_axis, one, magnitude(side) * inverse_W);
   o.n = o.dc * inverse_W;
@@ -120,6 +122,12 @@ RBS_INLINE HalfAngle<S> operator*(const HalfAngle<S>& a, const HalfAngle<S>& b) 
 template <class S>
 RBS_INLINE HalfAngle<S> normalized(const HalfAngle<S>& a) {
   const S scale = 1 / root(a.cos * a.cos + a.sin * a.sin);
+  return {scale * a.cos, scale * a.sin};
+}
+/// Of a length from 0.7 to 2, without a rounding.
+template <class S>
+RBS_INLINE HalfAngle<S> nearOne(const HalfAngle<S>& a) {
+  const S scale = inversePower(magnitude(a.cos) + magnitude(a.sin));
   return {scale * a.cos, scale * a.sin};
 }
 
@@ -202,9 +210,9 @@ RBS_INLINE OrbitStep<S> doubled(const OrbitStep<S>& half, const Orbit<S>& o) {
   cn = unit * cn;
   whole.f = {sn, cn, (c2 * d2 + o.kc2 * s2) * scale};
   const S re = o.one_minus_n + o.n * cn * c2;
-  const S im = o.one_minus_n * o.dc / o.lambda * s2 * sn;
+  const S im = o.one_minus_n * o.dc * o.inverse_lambda * s2 * sn;
   whole.linear = 2 * half.linear;
-  whole.other = normalized((half.other * half.other) * rootDirection(re, im));
+  whole.other = nearOne((half.other * half.other) * rootDirection(re, im));
   return whole;
 }
 
@@ -222,7 +230,7 @@ RBS_INLINE OrbitStep<S> orbitStep(const Orbit<S>& o, S time) {
   }
   OrbitStep<S> step;
   step.f = jacobiOfSmall(u, o.k2);
-  step.linear = o.one_minus_n * o.dc / o.lambda * integralOfSmall(step.f.sn, o.k2, o.n);
+  step.linear = o.one_minus_n * o.dc * o.inverse_lambda * integralOfSmall(step.f.sn, o.k2, o.n);
   step.other = {S(1.0), S(0.0)};
   for (auto goes_on = doublings_left > 1; any(goes_on); goes_on = doublings_left > 1) {
     const OrbitStep<S> next = doubled(step, o);
@@ -236,7 +244,8 @@ RBS_INLINE OrbitStep<S> orbitStep(const Orbit<S>& o, S time) {
                   select(moves, next.other.sin, step.other.sin)};
     doublings_left = 0.5 * doublings_left;
   }
-  step.other = step.other * rootDirection(step.f.dn, o.dc / o.lambda * step.f.sn * step.f.cn);
+  step.other =
+      step.other * rootDirection(step.f.dn, o.dc * o.inverse_lambda * step.f.sn * step.f.cn);
   return step;
 }
 

@@ -39,7 +39,7 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   o.md = select(turns, o.md, one);  // lest a momentum across d divides by zero
   const OrbitStep<S> step = orbitStep(o, h * (a.a13 * momentum.G));
   const Jacobi<S>& f = step.f;
-  const S s = f.sn / o.lambda;
+  const S s = f.sn * o.inverse_lambda;
   const S q = o.W / (o.md * o.md + o.m2 * o.m2 * o.dc * (f.cn * f.cn));
   const S md = (o.md * f.dn - o.dc * s * o.mc * o.m2 * f.cn) * q;
   const S mc = (o.mc * f.cn - o.dd * s * o.m2 * o.md * f.dn) * q;
