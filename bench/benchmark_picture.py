@@ -44,7 +44,8 @@ def apart(places, least):
 def points(results):
     """(way, ns, error) of the ways that are drawn; of Simulator none, as it is the same rungs."""
     return [(way, results.time(way), max(results.error(way), LEAST)) for way in results.ways
-            if results.time(way) and results.error(way) is not None and "Simulator" not in way[1]]
+            if results.time(way) and results.error(way) is not None and "Simulator" not in way[1]
+            and way[1] != "bare loop"]
 
 
 def draw_ways(axes, results, ways):
