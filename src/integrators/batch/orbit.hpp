@@ -28,6 +28,12 @@ RBS_INLINE InverseMoments<S> inverseMoments(const Vector<S>& I) {
           select(is_sphere, none, (I.z - I.y) / range * (I.x / I.y))};
 }
 
+/// 1 / root(x), where the division need not wait for the root; 1 / x must not overflow.
+template <class S>
+RBS_INLINE S inverseRoot(S x) {
+  return root(x) * (1 / x);
+}
+
 /// Length and direction of a vector of any size; without direction for zero.
 template <class S>
 struct Direction {
@@ -39,14 +45,14 @@ template <class S>
 RBS_INLINE Direction<S> directionOf(const Vector<S>& v) {
   const S square = dot(v, v);
   const auto is_usual = (square > 1e-280) & (square < 1e280);
-  const S length = root(select(is_usual, square, S(1.0)));
-  Direction<S> d = {length, (1 / length) * v};
+  const S usual = select(is_usual, square, S(1.0));
+  Direction<S> d = {root(usual), inverseRoot(usual) * v};
   if (!all(is_usual)) {
     const S scale = inversePower(largest(v));
     const Vector<S> near_one = scale * v;
-    const S size = root(dot(near_one, near_one));
-    d.G = select(is_usual, d.G, size / scale);
-    d.m = select(is_usual, d.m, (1 / size) * near_one);
+    const S size2 = dot(near_one, near_one);
+    d.G = select(is_usual, d.G, root(size2) / scale);
+    d.m = select(is_usual, d.m, inverseRoot(size2) * near_one);
   }
   return d;
 }

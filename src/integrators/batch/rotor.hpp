@@ -67,12 +67,12 @@ RBS_INLINE FreeRotation<S> exactRotation(const Vector<S>& m_B, const Vector<S>& 
   // of that after; |P|^2 = 2 (1 + |md|).
   const S before = 1 + magnitude(o.md), after = 1 + magnitude(md);
   const S slow_square = slow.cos * slow.cos + slow.sin * slow.sin;
-  const S scale = 1 / root(4 * before * after * slow_square * seen_square);
-  const S C = scale * spin.cos, D = scale * spin.sin;
+  const S C = spin.cos, D = spin.sin;
   const S x = sign_d * mc, y = sign_d * m2;
   const Quaternion<S> first = {-(sign_d * o.m2), sign_d * o.mc, S(0.0), before};
   const Quaternion<S> then = {C * y + D * x, D * y - C * x, D * after, C * after};
-  const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, first * then);
+  const S scale = inverseRoot(4 * before * after * slow_square * seen_square);
+  const Quaternion<S> turn = fromOrbit(o.is_around_1, o.about, scaled(scale, first * then));
   const Vector<S> next = momentum.G * momentumFromOrbit(o.is_around_1, mc, m2, md);
   if (all(turns)) return {turn, next};
   const S none(0.0);
