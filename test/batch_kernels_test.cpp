@@ -6,6 +6,7 @@
 
 #include "batch_bodies.hpp"
 #include "integrators/batch/kernels.hpp"
+#include "reference/flight.hpp"
 
 namespace rigid_body_sim::batch {
 namespace {
@@ -269,6 +270,34 @@ TEST(CoastingSpins, StandStillInNoTime) {
       k.driftSpins(columnsOf(flown), tiles_of_flown.data(), 0.02, {0, 20});
       EXPECT_TRUE(sameBits(bodies.q_WB, flown.q_WB)) << k.name << " " << steps;
     }
+}
+
+/// A torque takes all but a trace of the momentum away and brings it back, over and over: what
+/// rounding has made of the momentum in the body's axes is then large beside the trace, and no
+/// fault of the attitude. Of a sphere the attitude is known.
+TEST(KickedSpins, KeepTheAttitudeWhereKicksTakeNearlyAllOfTheMomentum) {
+  constexpr double kMoment = 1.3, h = 1.0 / 64;
+  const Vector3d push(0.5, 0.25, 0.125), trace = std::ldexp(1, -12) * Vector3d(1, -1, 1);
+  Bodies ball(1);
+  ball.mass(0) = 1;
+  ball.I_BBcm_B.row(0).setConstant(kMoment);
+  ball.setState(0,
+                {Vector3d::Zero(), Quaterniond::Identity(), Vector3d::Zero(), 8.5 * push + trace});
+  std::vector<double> tiles(tileSize(1, kSpinNumbers));
+  Pushes pushes(1);
+  pushes.f_W.setZero();
+  reference::Quaternionr wanted = reference::Quaternionr::Identity();
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d impulse = i / 9 % 2 == 0 ? Vector3d(-push) : push;  // all sums are exact
+    const reference::Vector3r L_W =
+        (Vector3d(ball.L_WBcm_W.row(0)) + 0.5 * impulse).cast<reference::Real>();
+    const reference::Vector3r turn = h * L_W / reference::Real(kMoment);
+    wanted = Eigen::AngleAxis<reference::Real>(turn.norm(), turn.normalized()) * wanted;
+    pushes.t_Bcm_W.row(0) = impulse / h;
+    kernels().flySpins(columnsOf(ball), columnsOf(pushes), tiles.data(), h / 2, h, h / 2, {0, 1});
+  }
+  // Measured 4e-13, of twenty thousand rounded products; 5e-12 where the attitude took the blame.
+  EXPECT_LT(angleBetween(ball.state(0).q_WB, wanted.cast<double>()), 1e-12);
 }
 
 TEST_P(BatchKernels, KeepTheAttitudeOfABodyWithoutSpinToTheBit) {

@@ -141,8 +141,8 @@ void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, do
 }
 
 /// Where rounding has let R m and L part by more than 1e-14 of L, the attitude is turned the
-/// shortest way back; by more than 1e-12, as after a kick that took nearly all of L, m is made
-/// anew.
+/// shortest way back. A step adds less than 1e-14; what is more than 3e-14 comes of a kick that
+/// took most of L and left m with the roundings of more: m is made anew.
 template <class S>
 RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Quaternion<S>& q_WB,
                           Vector<S>& m_B) {
@@ -151,7 +151,7 @@ RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Q
   const S size2 = dot(L_W, L_W), off2 = dot(off, off);
   const auto is_off = mask & !(off2 <= 1e-28 * size2);
   if (!any(is_off)) return;
-  const auto is_lost = off2 > 1e-24 * size2;
+  const auto is_lost = off2 > 1e-27 * size2;
   if (any(is_off & is_lost)) m_B = momentumAnew<S>(is_off & is_lost, q_WB, L_W, m_B);
   const auto turns = is_off & !is_lost;
   if (!any(turns)) return;
