@@ -133,7 +133,8 @@ void drift(const BodyColumns& of, const WrenchColumns* by, double h, Range range
   });
 }
 
-/// Without w x I w the angular velocity keeps its world components; L follows from it.
+/// Without w x I w the angular momentum keeps its components in the body's axes, and so does the
+/// angular velocity, there and in the world.
 template <class S>
 void driftWithoutGyroscopicTerm(const BodyColumns& of, double h, Range range) {
   const BodyColumns bodies = of;
@@ -144,13 +145,11 @@ void driftWithoutGyroscopicTerm(const BodyColumns& of, double h, Range range) {
     const auto is_still = isZero(L_W);
     if (all(is_still)) return;
     const auto q_WB = loadQuaternion(at, bodies.q_WB, n);
-    const auto I = loadVector(at, bodies.I_BBcm_B, n);
-    const auto w_WB = rotated(q_WB, quotient(rotatedBack(q_WB, L_W), I));
-    const auto next = renormalized(rotationExp(h * w_WB) * q_WB);
-    const auto w_B = rotatedBack(next, w_WB);
-    const auto L_next = rotated(next, product(I, w_B));
+    const auto m_B = rotatedBack(q_WB, L_W);
+    const auto w_B = quotient(m_B, loadVector(at, bodies.I_BBcm_B, n));
+    const auto next = renormalized(q_WB * rotationExp(h * w_B));
     storeQuaternion(at, bodies.q_WB, n, select(is_still, q_WB, next));
-    storeVector(at, bodies.L_WBcm_W, n, select(is_still, L_W, L_next));
+    storeVector(at, bodies.L_WBcm_W, n, select(is_still, L_W, rotated(next, m_B)));
   });
 }
 
