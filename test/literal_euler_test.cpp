@@ -148,14 +148,16 @@ TEST(GyroscopicOff, IsStableAndWrong) {
 }
 
 TEST(GyroscopicOff, LetsTheRateSlipByARoundingAStep) {
-  // From L to w and back, always to the same side: measured 2.6e-16 of w a step.
+  // From L to w and back, always to the same side: measured 2.6e-16 of w a step. Where L is turned
+  // with the body, as in split2: 1.5e-16.
   for (const char* integrator : {kExplicit, kSemiImplicit, "split2"}) {
+    const double expected = integrator == std::string("split2") ? 0.7 * kEps : 1.2 * kEps;
     Simulator simulator(sceneOf(kDzhanibekovI, kDzhanibekovW, integrator, Gyroscopic::kOff));
     const Vector3d w_WB = angularVelocity(simulator.state(0), kDzhanibekovI);
     for (const int steps : {10'000, 100'000}) {
       while (simulator.tick() < steps) simulator.step();
       const Vector3d slip = angularVelocity(simulator.state(0), kDzhanibekovI) - w_WB;
-      EXPECT_NEAR(slip.norm() / w_WB.norm() / steps, 1.2 * kEps, 0.3 * kEps) << integrator;
+      EXPECT_NEAR(slip.norm() / w_WB.norm() / steps, expected, 0.3 * kEps) << integrator;
     }
   }
 }
