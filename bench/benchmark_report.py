@@ -203,7 +203,7 @@ def intro(results, picture):
 ![Error against time of a step, every engine and every integrator]({picture})
 
 ```bash
-scripts/benchmark              # installs the engines, builds, measures, writes this section; some ten minutes
+scripts/benchmark              # installs the engines, builds, measures, writes this section; some 25 minutes
 scripts/benchmark --quick      # to try it out: a minute, and this section stays as it is
 ```
 
