@@ -82,8 +82,9 @@ class Needle : public Effect {
 };
 
 /// The most kinetic energy in 20,000 steps, in the depth of the well, of bodies with these moments
-/// that are let go at angles up to just below the unstable rest.
-double heat(const IntegratorRow& row, const Vector3d& I, double swing) {
+/// that are let go at angles up to just below the unstable rest. @param nudge of the momenta at the
+/// start, as a part of them
+double heat(const IntegratorRow& row, const Vector3d& I, double swing, double nudge = 0) {
   const std::vector<double> angles = {0.1, 0.8, 1.57, 2.3, 2.9, 3.1, 3.14};
   Bodies bodies(static_cast<Eigen::Index>(angles.size()));
   const bool spins = I(0) != I(2);
@@ -91,8 +92,9 @@ double heat(const IntegratorRow& row, const Vector3d& I, double swing) {
     bodies.mass(i) = 1;
     bodies.I_BBcm_B.row(i) = I;
     const Vector3d axis = spins ? Vector3d(1, 0.3, 0.1).normalized() : Vector3d(1, 0, 0);
-    bodies.setState(i, {Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(angles[i], axis)),
-                        Vector3d::Zero(), spins * swing * Vector3d(0.02, 0.01, 0.03)});
+    bodies.setState(
+        i, {Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(angles[i], axis)), Vector3d::Zero(),
+            (1 + nudge) * spins * swing * Vector3d(0.02, 0.01, 0.03)});
   }
   const Needle needle(swing, I(0));
   ActiveEffects effects;
@@ -122,9 +124,13 @@ TEST_P(IntegratorLaws, KeepsSwingsOfAnySizeBoundedUpToTheOneThatIsStated) {
     EXPECT_LE(triaxial, row.order == 1 ? 2 : 1.1);
   }
   // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing
-  // has no bound. Measured, as roundings will have it: from 3 to 9000 in so many steps.
+  // has no bound. When it sets out is up to roundings: the hottest of three starts, measured 60 and
+  // more.
   if (row.keeps_angular_momentum && row.has_drifts) {
-    EXPECT_GE(heat(row, three, 2.2 * row.max_large_swing), 2);
+    double most = 0;
+    for (const double nudge : {0.0, 1e-13, 2e-13})
+      most = std::max(most, heat(row, three, 2.2 * row.max_large_swing, nudge));
+    EXPECT_GE(most, 10);
   }
 }
 

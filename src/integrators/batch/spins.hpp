@@ -141,8 +141,9 @@ void kickSpins(const BodyColumns& of, const WrenchColumns& by, double* tiles, do
 }
 
 /// Where rounding has let R m and L part by more than 1e-14 of L, the attitude is turned the
-/// shortest way back. A step adds less than 1e-14; what is more than 3e-14 comes of a kick that
-/// took most of L and left m with the roundings of more: m is made anew.
+/// shortest way back, and m gets the length of L. What is more than 3e-14 off comes of a kick that
+/// took most of L and left m with the roundings of more, or of a turn by more than a radian: m is
+/// made anew.
 template <class S>
 RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Quaternion<S>& q_WB,
                           Vector<S>& m_B) {
@@ -158,6 +159,8 @@ RBS_INLINE void alignSpin(typename MaskOf<S>::Type mask, const Vector<S>& L_W, Q
   const Vector<S> half = (0.5 / select(turns, size2, S(1.0))) * cross(now, L_W);
   const Quaternion<S> turned = renormalized(Quaternion<S>{half.x, half.y, half.z, S(1.0)} * q_WB);
   q_WB = select(turns, turned, q_WB);
+  const S fit = 1.5 - 0.5 * (dot(now, now) / select(turns, size2, S(1.0)));
+  m_B = select(turns, fit * m_B, m_B);
 }
 
 template <class Tile>
