@@ -1,7 +1,8 @@
-// The least that a step can be: semi-implicit Euler's method for velocities and a quaternion, in
-// one loop over plain arrays that the compiler vectorises for each processor, with nothing around
-// it. What the other rows of ours are measured against where memory is the limit.
+// Semi-implicit Euler's method for velocities and a quaternion, in one loop over plain arrays of
+// the state, the moments and the wrenches, which the compiler vectorises for each processor, with
+// nothing around it: a measure for the other rows of ours.
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -10,11 +11,50 @@
 namespace rigid_body_sim::bench {
 namespace {
 
-/// Of every body one number.
-using Column = std::vector<double>;
+/// Columns of numbers, one a body, aligned for any processor. Each begins two lines of a cache
+/// further on than the last one, lest they all fall onto the same places of it.
+class Arrays {
+ public:
+  enum Column {
+    kMass,
+    kI,
+    kP = kI + 3,
+    kV = kP + 3,
+    kQ = kV + 3,
+    kW = kQ + 4,
+    kF = kW + 3,
+    kT = kF + 3,
+    kCount = kT + 3
+  };
 
-struct Arrays {
-  Column mass, I[3], p[3], v[3], q[4], w[3], f[3], t[3];  // w in B, p, v, f and t in W
+  explicit Arrays(std::ptrdiff_t count)
+      : count_(count),
+        stride_((count + kLine - 1) / kLine * kLine + 2 * kLine),
+        numbers_(static_cast<std::size_t>(kCount * stride_ + kLine)) {}
+
+  std::ptrdiff_t count() const { return count_; }
+  double* column(int k) {
+    const auto begin = reinterpret_cast<std::uintptr_t>(numbers_.data());
+    const auto skipped = (64 - begin % 64) % 64 / sizeof(double);
+    return numbers_.data() + skipped + k * stride_;
+  }
+  /// The numbers of body i in a column and those after it.
+  template <class Numbers>
+  void put(Column first, std::ptrdiff_t i, const Numbers& numbers) {
+    for (int k = 0; k < static_cast<int>(numbers.size()); ++k) column(first + k)[i] = numbers[k];
+  }
+  template <int count>
+  Eigen::Matrix<double, count, 1> get(Column first, std::ptrdiff_t i) {
+    Eigen::Matrix<double, count, 1> numbers;
+    for (int k = 0; k < count; ++k) numbers[k] = column(first + k)[i];
+    return numbers;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kLine = 8;
+
+  std::ptrdiff_t count_, stride_;
+  std::vector<double> numbers_;
 };
 
 #if defined(__x86_64__)
@@ -23,22 +63,11 @@ struct Arrays {
 #define FOR_EACH_PROCESSOR
 #endif
 
-/// One step of h [s] of all. Restricted pointers, as the compiler checks no more than some pairs of
-/// arrays for overlap.
+/// One step of h [s] of all; velocities w in B, all else in W.
 FOR_EACH_PROCESSOR void step(Arrays& a, const double g[3], double gyroscopic, double h) {
-  const auto n = static_cast<std::ptrdiff_t>(a.mass.size());
-  const double *__restrict m = a.mass.data(), *__restrict I1 = a.I[0].data(),
-               *__restrict I2 = a.I[1].data(), *__restrict I3 = a.I[2].data(),
-               *__restrict f1 = a.f[0].data(), *__restrict f2 = a.f[1].data(),
-               *__restrict f3 = a.f[2].data(), *__restrict t1 = a.t[0].data(),
-               *__restrict t2 = a.t[1].data(), *__restrict t3 = a.t[2].data();
-  double *__restrict p1 = a.p[0].data(), *__restrict p2 = a.p[1].data(),
-         *__restrict p3 = a.p[2].data(), *__restrict v1 = a.v[0].data(),
-         *__restrict v2 = a.v[1].data(), *__restrict v3 = a.v[2].data(),
-         *__restrict w1 = a.w[0].data(), *__restrict w2 = a.w[1].data(),
-         *__restrict w3 = a.w[2].data(), *__restrict q1 = a.q[0].data(),
-         *__restrict q2 = a.q[1].data(), *__restrict q3 = a.q[2].data(),
-         *__restrict q0 = a.q[3].data();
+  const std::ptrdiff_t n = a.count();
+  const double* __restrict m = a.column(a.kMass), * __restrict I1 = a.column(a.kI), * __restrict I2 = a.column(a.kI + 1), * __restrict I3 = a.column(a.kI + 2), * __restrict f1 = a.column(a.kF), * __restrict f2 = a.column(a.kF + 1), * __restrict f3 = a.column(a.kF + 2), * __restrict t1 = a.column(a.kT), * __restrict t2 = a.column(a.kT + 1), * __restrict t3 = a.column(a.kT + 2);
+  double* __restrict p1 = a.column(a.kP), * __restrict p2 = a.column(a.kP + 1), * __restrict p3 = a.column(a.kP + 2), * __restrict v1 = a.column(a.kV), * __restrict v2 = a.column(a.kV + 1), * __restrict v3 = a.column(a.kV + 2), * __restrict w1 = a.column(a.kW), * __restrict w2 = a.column(a.kW + 1), * __restrict w3 = a.column(a.kW + 2), * __restrict q1 = a.column(a.kQ), * __restrict q2 = a.column(a.kQ + 1), * __restrict q3 = a.column(a.kQ + 2), * __restrict q0 = a.column(a.kQ + 3);
   const double g1 = g[0], g2 = g[1], g3 = g[2];
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -75,26 +104,18 @@ FOR_EACH_PROCESSOR void step(Arrays& a, const double g[3], double gyroscopic, do
 }
 
 Arrays arraysOf(const Scene& scene) {
-  const Eigen::Index n = scene.bodies.count();
-  Arrays a;
-  const auto put = [&](Column* columns, Eigen::Index i, const auto& numbers) {
-    for (int k = 0; k < static_cast<int>(numbers.size()); ++k) {
-      columns[k].resize(static_cast<std::size_t>(n));
-      columns[k][static_cast<std::size_t>(i)] = numbers[k];
-    }
-  };
-  const Vector3d none = Vector3d::Zero();
-  for (Eigen::Index i = 0; i < n; ++i) {
+  Arrays a(scene.bodies.count());
+  for (Eigen::Index i = 0; i < a.count(); ++i) {
     const BodyState state = scene.bodies.state(i);
-    a.mass.push_back(scene.bodies.mass(i));
-    put(a.I, i, scene.bodies.moments(i));
-    put(a.p, i, state.p_WBcm);
-    put(a.v, i, scene.v_WBcm(i));
-    put(a.q, i, state.q_WB.coeffs());
-    put(a.w, i, scene.w_WB_B(i));
-    const bool is_pushed = scene.load.has_wrenches;
-    put(a.f, i, is_pushed ? Vector3d(scene.wrenches->f_W.row(i)) : none);
-    put(a.t, i, is_pushed ? Vector3d(scene.wrenches->t_Bcm_W.row(i)) : none);
+    a.column(a.kMass)[i] = scene.bodies.mass(i);
+    a.put(a.kI, i, scene.bodies.moments(i));
+    a.put(a.kP, i, state.p_WBcm);
+    a.put(a.kV, i, scene.v_WBcm(i));
+    a.put(a.kQ, i, state.q_WB.coeffs());
+    a.put(a.kW, i, scene.w_WB_B(i));
+    if (!scene.load.has_wrenches) continue;
+    a.put(a.kF, i, Vector3d(scene.wrenches->f_W.row(i)));
+    a.put(a.kT, i, Vector3d(scene.wrenches->t_Bcm_W.row(i)));
   }
   return a;
 }
@@ -108,14 +129,10 @@ struct Loop {
     const double gyroscopic = scene.load.gyroscopic == Gyroscopic::kOn ? 1 : 0;
     for (int k = 0; k < steps; ++k) bench::step(now, scene.g_W.data(), gyroscopic, scene.step_s);
   }
-  Motion motionOf(Eigen::Index i) const {
-    const auto at = [&](const Column* columns) {
-      const auto k = static_cast<std::size_t>(i);
-      return Vector3d(columns[0][k], columns[1][k], columns[2][k]);
-    };
-    const Vector3d u = at(now.q);
-    const Quaterniond q_WB(now.q[3][static_cast<std::size_t>(i)], u.x(), u.y(), u.z());
-    return {at(now.p), q_WB, at(now.v), q_WB * at(now.w)};
+  Motion motionOf(Eigen::Index i) {
+    const Quaterniond q_WB(now.get<4>(Arrays::kQ, i));
+    return {now.get<3>(Arrays::kP, i), q_WB, now.get<3>(Arrays::kV, i),
+            q_WB * now.get<3>(Arrays::kW, i)};
   }
 };
 

@@ -26,7 +26,10 @@ def made_up_results(folder):
           [*ENGINE, 4096, "it is slow"])
     write(folder / "times.csv", ["engine", "way", "about", "load", "bodies", "ns_per_body_step"],
           *([*way, "about it", load, 256, time] for way, time in ((ENGINE, 123), (OURS, 41))
-            for load in ("gyroscopic", "wrench")), [*OURS, "about it", "gravity", 256, 39])
+            for load in ("gyroscopic", "wrench")), [*OURS, "about it", "gravity", 256, 39],
+          *([OURS[0], way, "about it", "gyroscopic", 256, time] for way, time in (
+              ("bare loop", 2.5), ("semi_implicit, Simulator", 6), ("rk4, Simulator", 12),
+              ("exact, Simulator", 8.25))))
     write(folder / "errors.csv", ["engine", "way", "load", "step_s", "attitude_error_rad"],
           [*ENGINE, "gyroscopic", "0.02", 2.5], [*OURS, "gyroscopic", "0.02", 3e-14],
           [*OURS, "gravity", "0.02", 3.1])
@@ -65,6 +68,8 @@ class Section(unittest.TestCase):
         for part in ("| **`exact`** | 41 | 3.0 | 3e-14 |", "| Engine 1.0, world | 123 | 1.0 | 2.5 |",
                      "| Engine 1.0, world | – | 123 | 123 |", "| **`exact`** | 39 | 41 | 41 |",
                      "Engine (*world*) beyond 4,096 bodies, as it is slow", "Not installed: other.",
+                     "With 256 a `Simulator` takes 6.0 ns with `semi_implicit`, 12.0 ns with `rk4`, "
+                     "8.2 ns with `exact`", "the fastest other way 123 ns, and `bare loop` 2.5 ns.",
                      "A Processor, of 1 core; GNU 12.2, -O3; commit abc1234", "(picture.png)"):
             self.assertIn(part, text)
 

@@ -61,6 +61,15 @@ TEST(Simulator, RefusesScenesThatCannotBeSimulated) {
   SceneBody fast = good;
   fast.v_WBcm.x() = 1e308;
   EXPECT_TRUE(contains(refusal([&] { Simulator{sceneOf(fast)}; }), {"body 'b'", "not finite"}));
+  Scene crowded = sceneOf(good);
+  crowded.threads = -1;
+  EXPECT_TRUE(contains(refusal([&] { Simulator{crowded}; }), {"threads", "negative"}));
+  SceneBody nowhere = good;
+  nowhere.X_WL.translation().y() = kNaN;
+  EXPECT_TRUE(contains(refusal([&] { Simulator{sceneOf(nowhere)}; }), {"body 'b'", "pose"}));
+  Simulator simulator(sceneOf(good));
+  EXPECT_TRUE(contains(refusal([&] { simulator.advance(-5); }), {"backwards"}));
+  EXPECT_EQ(simulator.tick(), 0);
   Scene empty = sceneOf(good);
   empty.effects.push_back(nullptr);
   EXPECT_TRUE(contains(refusal([&] { Simulator{empty}; }), {"effect", "null"}));

@@ -50,7 +50,7 @@ void requireUniqueFrames(const Scene& scene) {
 void requireRigid(const SceneBody& body) {
   const Matrix3d R_WL = body.X_WL.linear();
   const double off = (R_WL * R_WL.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(off < 1e-9) || R_WL.determinant() < 0)
+  if (!(off < 1e-9) || R_WL.determinant() < 0 || !body.X_WL.translation().allFinite())
     throw std::invalid_argument("body '" + body.name + "': its pose is no rigid transform");
 }
 
@@ -60,6 +60,7 @@ Simulator::Simulator(Scene scene, std::function<bool()> shall_end)
     : scene_(std::move(scene)), shall_end_(std::move(shall_end)) {
   if (scene_.bodies.empty()) throw std::invalid_argument("the scene has no body");
   if (scene_.step_ns <= 0) throw std::invalid_argument("the step must be positive");
+  if (scene_.threads < 0) throw std::invalid_argument("threads must not be negative");
   requireUniqueFrames(scene_);
   for (const auto& effect : scene_.effects)
     if (!effect) throw std::invalid_argument("an effect of the scene is null");
@@ -157,6 +158,7 @@ void Simulator::setState(Eigen::Index body, const BodyState& state) {
 }
 
 void Simulator::advance(Tick ticks) {
+  if (ticks < 0) throw std::invalid_argument("simulated time does not run backwards");
   ended_.clear();
   for (Tick done = 0, some; done < ticks; done += some) {
     latchInputs();
