@@ -161,7 +161,8 @@ class Simulator {
 
   /// Simulates that many ticks, with the same result as step() as often, but faster where bodies
   /// are many: as long as no input begins or ends, each is taken through several ticks while it is
-  /// in the processor's cache. @throws std::invalid_argument for a negative number, or as step() does
+  /// in the processor's cache.
+  /// @throws std::invalid_argument for a negative number, or as step() does
   void advance(Tick ticks);
 
   /// Back to the initial state, without inputs and frozen bodies. Takes one tick, so that no time
