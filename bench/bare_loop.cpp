@@ -2,7 +2,6 @@
 // the state, the moments and the wrenches, which the compiler vectorises for each processor, with
 // nothing around it: a measure for the other rows of ours.
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,7 +10,7 @@
 namespace rigid_body_sim::bench {
 namespace {
 
-/// Columns of numbers, one a body, aligned for any processor. Each begins two lines of a cache
+/// Columns of numbers, one a body. Each begins two lines of a cache
 /// further on than the last one, lest they all fall onto the same places of it.
 class Arrays {
  public:
@@ -30,14 +29,10 @@ class Arrays {
   explicit Arrays(std::ptrdiff_t count)
       : count_(count),
         stride_((count + kLine - 1) / kLine * kLine + 2 * kLine),
-        numbers_(static_cast<std::size_t>(kCount * stride_ + kLine)) {}
+        numbers_(static_cast<std::size_t>(kCount * stride_)) {}
 
   std::ptrdiff_t count() const { return count_; }
-  double* column(int k) {
-    const auto begin = reinterpret_cast<std::uintptr_t>(numbers_.data());
-    const auto skipped = (64 - begin % 64) % 64 / sizeof(double);
-    return numbers_.data() + skipped + k * stride_;
-  }
+  double* column(int k) { return numbers_.data() + k * stride_; }
   /// The numbers of body i in a column and those after it.
   template <class Numbers>
   void put(Column first, std::ptrdiff_t i, const Numbers& numbers) {
