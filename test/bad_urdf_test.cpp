@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -39,13 +40,13 @@ int inspect(std::string path, const std::string& stderr_path) {
 
 class BadUrdfs : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_NE(mkdtemp(directory_), nullptr); }
+  void SetUp() override { ASSERT_NE(mkdtemp(directory_.data()), nullptr); }
   void TearDown() override {
     for (const std::string& path : {path_, stderr_path()}) std::remove(path.c_str());
-    rmdir(directory_);
+    rmdir(directory_.c_str());
   }
 
-  std::string stderr_path() const { return std::string(directory_) + "/stderr"; }
+  std::string stderr_path() const { return directory_ + "/stderr"; }
 
   void expectOneLine(const std::string& line, const BadUrdf& bad) {
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
@@ -66,7 +67,7 @@ class BadUrdfs : public ::testing::Test {
 
   void expectProgramRefuses(const BadUrdf& bad) {
     SCOPED_TRACE(bad.name);
-    path_ = std::string(directory_) + "/bad.urdf";
+    path_ = directory_ + "/bad.urdf";
     std::ofstream(path_, std::ios::binary) << bad.text;
     EXPECT_EQ(inspect(path_, stderr_path()), 1);
     std::ifstream file(stderr_path());
@@ -85,7 +86,7 @@ class BadUrdfs : public ::testing::Test {
   }
 
  private:
-  char directory_[32] = "/tmp/bad_urdf_XXXXXX";
+  std::string directory_ = (std::filesystem::temp_directory_path() / "bad_urdf_XXXXXX").string();
   std::string path_;
 };
 

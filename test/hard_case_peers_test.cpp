@@ -16,12 +16,12 @@ namespace {
 
 class Engines : public testing::Test {
  protected:
-  void SetUp() override { ASSERT_NE(mkdtemp(folder_), nullptr); }
+  void SetUp() override { ASSERT_NE(mkdtemp(folder_.data()), nullptr); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// A program that says its `name`, and of a case what `does` does.
   void add(const std::string& name, const std::string& does) const {
-    const std::string path = std::string(folder_) + "/peer_" + name;
+    const std::string path = folder_ + "/peer_" + name;
     std::ofstream(path) << "#!/bin/sh\nif [ $1 = names ]; then echo '" << name
                         << "'; echo .; exit; fi\n"
                         << does << '\n';
@@ -33,7 +33,8 @@ class Engines : public testing::Test {
                     [](const std::string&, double) {});
   }
 
-  char folder_[64] = "/tmp/rigid_body_sim_engines_XXXXXX";
+  std::string folder_ =
+      (std::filesystem::temp_directory_path() / "rigid_body_sim_engines_XXXXXX").string();
 };
 
 const std::string kLoses =
@@ -109,7 +110,7 @@ TEST_F(Engines, TableAndFileHaveALineACaseAndALineACell) {
   print(fly(), table);
   EXPECT_TRUE(contains(table.str(), {"Other engines", "bullet", "separatrix", "x E -27%"}));
   writeCsv(fly(), folder_);
-  const std::string file = readTextFile(std::string(folder_) + "/peers.csv");
+  const std::string file = readTextFile(folder_ + "/peers.csv");
   EXPECT_EQ(std::count(file.begin(), file.end(), '\n'), 1 + 2);
   EXPECT_TRUE(contains(file, {"separatrix,bullet,wrong,x E -27%,attitude,rad,2.64", "and why"}));
 }
