@@ -10,8 +10,8 @@
 namespace rigid_body_sim::bench {
 namespace {
 
-/// Columns of numbers, one a body. Each begins two lines of a cache
-/// further on than the last one, lest they all fall onto the same places of it.
+/// Columns of numbers, one a body. Each begins two lines of a cache further on than the last one,
+/// lest they all fall onto the same places of it.
 class Arrays {
  public:
   enum Column {
@@ -33,6 +33,7 @@ class Arrays {
 
   std::ptrdiff_t count() const { return count_; }
   double* column(int k) { return numbers_.data() + k * stride_; }
+
   /// The numbers of body i in a column and those after it.
   template <class Numbers>
   void put(Column first, std::ptrdiff_t i, const Numbers& numbers) {
@@ -58,11 +59,18 @@ class Arrays {
 #define FOR_EACH_PROCESSOR
 #endif
 
-/// One step of h [s] of all; velocities w in B, all else in W.
+/// One step of h [s] of all; angular velocities in B, all else in W.
 FOR_EACH_PROCESSOR void step(Arrays& a, const double g[3], double gyroscopic, double h) {
   const std::ptrdiff_t n = a.count();
-  const double* __restrict m = a.column(a.kMass), * __restrict I1 = a.column(a.kI), * __restrict I2 = a.column(a.kI + 1), * __restrict I3 = a.column(a.kI + 2), * __restrict f1 = a.column(a.kF), * __restrict f2 = a.column(a.kF + 1), * __restrict f3 = a.column(a.kF + 2), * __restrict t1 = a.column(a.kT), * __restrict t2 = a.column(a.kT + 1), * __restrict t3 = a.column(a.kT + 2);
-  double* __restrict p1 = a.column(a.kP), * __restrict p2 = a.column(a.kP + 1), * __restrict p3 = a.column(a.kP + 2), * __restrict v1 = a.column(a.kV), * __restrict v2 = a.column(a.kV + 1), * __restrict v3 = a.column(a.kV + 2), * __restrict w1 = a.column(a.kW), * __restrict w2 = a.column(a.kW + 1), * __restrict w3 = a.column(a.kW + 2), * __restrict q1 = a.column(a.kQ), * __restrict q2 = a.column(a.kQ + 1), * __restrict q3 = a.column(a.kQ + 2), * __restrict q0 = a.column(a.kQ + 3);
+  const double* m = a.column(a.kMass);
+  const double *I1 = a.column(a.kI), *I2 = a.column(a.kI + 1), *I3 = a.column(a.kI + 2);
+  const double *f1 = a.column(a.kF), *f2 = a.column(a.kF + 1), *f3 = a.column(a.kF + 2);
+  const double *t1 = a.column(a.kT), *t2 = a.column(a.kT + 1), *t3 = a.column(a.kT + 2);
+  double *p1 = a.column(a.kP), *p2 = a.column(a.kP + 1), *p3 = a.column(a.kP + 2);
+  double *v1 = a.column(a.kV), *v2 = a.column(a.kV + 1), *v3 = a.column(a.kV + 2);
+  double *q1 = a.column(a.kQ), *q2 = a.column(a.kQ + 1), *q3 = a.column(a.kQ + 2),
+         *q0 = a.column(a.kQ + 3);
+  double *w1 = a.column(a.kW), *w2 = a.column(a.kW + 1), *w3 = a.column(a.kW + 2);
   const double g1 = g[0], g2 = g[1], g3 = g[2];
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < n; ++i) {

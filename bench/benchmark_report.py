@@ -15,6 +15,7 @@ and writes PICTURE, a PNG to which the README refers by its path from there.
 
 import csv
 import json
+import math
 import os
 import pathlib
 import sys
@@ -50,7 +51,10 @@ class Results:
             self.times[way, row["load"], int(row["bodies"])] = float(row["ns_per_body_step"])
         for row in read(folder / "errors.csv"):
             way = row["engine"], row["way"]
-            self.errors[way, row["load"], row["step_s"]] = float(row["attitude_error_rad"])
+            error = float(row["attitude_error_rad"])
+            if way[0] == OURS and not math.isfinite(error):
+                raise ValueError(f"{way[1]} left no attitude under {row['load']}")
+            self.errors[way, row["load"], row["step_s"]] = error
         if (folder / "rungs.json").exists():
             for row in json.loads((folder / "rungs.json").read_text())["benchmarks"]:
                 if row.get("aggregate_name", "median") == "median":

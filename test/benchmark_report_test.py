@@ -73,6 +73,14 @@ class Section(unittest.TestCase):
                      "A Processor, of 1 core; GNU 12.2, -O3; commit abc1234", "(picture.png)"):
             self.assertIn(part, text)
 
+    def test_is_not_written_when_one_of_ours_fails(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made_up_results(pathlib.Path(folder))
+            with (pathlib.Path(folder) / "errors.csv").open("a") as file:
+                csv.writer(file).writerow([*OURS, "gyroscopic", "0.01", "nan"])
+            with self.assertRaisesRegex(ValueError, "exact left no attitude under gyroscopic"):
+                report.Results(pathlib.Path(folder))
+
 
 if __name__ == "__main__":
     unittest.main()
