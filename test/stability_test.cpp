@@ -124,7 +124,7 @@ TEST_P(IntegratorLaws, KeepsSwingsOfAnySizeBoundedUpToTheOneThatIsStated) {
     EXPECT_LE(triaxial, row.order == 1 ? 2 : 1.1);
   }
   // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing
-  // has no bound. When it sets out is up to roundings: the hottest of three starts, measured 60 and
+  // has no bound. When it sets out is up to roundings: the hottest of three starts, measured 160 and
   // more.
   if (row.keeps_angular_momentum && row.has_drifts) {
     double most = 0;

@@ -66,13 +66,13 @@ struct Orbit {
   Question is_fixed_axis;  ///< the others' numbers are then those of no orbit, but finite
   S about;                 ///< -1 around axis 1, 1 around axis 3
   S md, mc, m2;            ///< the momentum
-  S dc, dd;  ///< differences of inverse moments: the middle one's to that of c and of d
-  S W, R;    ///< conserved; R = 0 on a principal axis
-  S lambda;  ///< rate of the elliptic argument
-  S inverse_lambda;
-  S k2, kc2;      ///< modulus
-  S one_minus_n;  ///< |S| / W
-  S n;            ///< dc / W
+  S dc, dd;          ///< differences of inverse moments: the middle one's to that of c and of d
+  S W, R;            ///< conserved; R = 0 on a principal axis
+  S lambda;          ///< rate of the elliptic argument
+  S inverse_lambda;  ///< 1 / lambda
+  S k2, kc2;         ///< modulus
+  S one_minus_n;     ///< |S| / W
+  S n;               ///< dc / W
 };
 
 template <class S>
