@@ -124,8 +124,8 @@ TEST_P(IntegratorLaws, KeepsSwingsOfAnySizeBoundedUpToTheOneThatIsStated) {
     EXPECT_LE(triaxial, row.order == 1 ? 2 : 1.1);
   }
   // And not needlessly small: of a method that loses no energy, with 2.2 times as much some swing
-  // has no bound. When it sets out is up to roundings: the hottest of three starts, measured 160 and
-  // more.
+  // has no bound. When it sets out is up to roundings: the hottest of three starts, measured 160
+  // and more.
   if (row.keeps_angular_momentum && row.has_drifts) {
     double most = 0;
     for (const double nudge : {0.0, 1e-13, 2e-13})
